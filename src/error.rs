@@ -1,0 +1,43 @@
+//! Everything that can go wrong, each with its remedy. The command line maps these to exit codes.
+
+use std::io;
+use std::path::PathBuf;
+
+pub type Result<T> = std::result::Result<T, Error>;
+
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The scene file breaks the rules; the text holds every fault with its place (exit 65).
+    #[error("{0}")]
+    Scene(String),
+    /// A `--set` or its short form names no knob, or a value that the knob cannot take (exit 2).
+    #[error("{0}")]
+    Knob(String),
+    /// Arguments that contradict each other (exit 2).
+    #[error("{0}")]
+    Usage(String),
+    /// An input that is not there or cannot be opened (exit 66).
+    #[error("cannot read {}: {source}", path.display())]
+    Input { path: PathBuf, source: io::Error },
+    /// An input that is there but is not what it should be (exit 65).
+    #[error("{}: {reason}", path.display())]
+    Data { path: PathBuf, reason: String },
+    /// No device of the kind that was asked for (exit 69).
+    #[error("{0}")]
+    Device(String),
+    /// The device was lost or did not answer in time; the same call may succeed later (exit 75).
+    #[error("{0}")]
+    DeviceLost(String),
+    /// An output that cannot be created; said before anything is rendered (exit 73).
+    #[error("cannot create {}: {source}", path.display())]
+    Create { path: PathBuf, source: io::Error },
+    /// An output that broke off; the old file, if any, is untouched (exit 74).
+    #[error("cannot write {}: {source}; the file that was there before, if any, is untouched", path.display())]
+    Write { path: PathBuf, source: io::Error },
+    /// A fault of lampray itself (exit 70).
+    #[error(
+        "internal error: {0}. This is a fault of lampray: please report it with the command and the scene"
+    )]
+    Internal(String),
+}

@@ -1,0 +1,1 @@
+//! Sums of samples, and the files made of them.

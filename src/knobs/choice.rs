@@ -1,0 +1,202 @@
+//! Knobs that take one of a few names: the Rust enum is the only place where the names and the
+//! numbers that the shaders see are written down.
+
+/// A knob type with a fixed list of names.
+pub trait Choice: Copy + Eq + Sized + 'static {
+    /// Every value, in the order of its number.
+    const ALL: &'static [Self];
+    /// Every name, in the order of its number.
+    const NAMES: &'static [&'static str];
+    /// The prefix of the WGSL constants, for example `LIGHT_SAMPLER`.
+    const WGSL: &'static str;
+
+    /// The number that the shaders compare with.
+    fn index(self) -> u32;
+
+    /// The name that scene files, `--set` and records use.
+    fn name(self) -> &'static str {
+        Self::NAMES[self.index() as usize]
+    }
+
+    /// The value with this name, if there is one.
+    fn from_name(name: &str) -> Option<Self> {
+        let index = Self::NAMES.iter().position(|known| *known == name)?;
+        Some(Self::ALL[index])
+    }
+
+    /// One WGSL constant a value: `const LIGHT_SAMPLER_CONE: u32 = 3u;`.
+    fn wgsl_constants() -> String {
+        let line = |(number, name): (usize, &&str)| {
+            let name = name.to_uppercase().replace('-', "_");
+            format!("const {}_{name}: u32 = {number}u;\n", Self::WGSL)
+        };
+        Self::NAMES.iter().enumerate().map(line).collect()
+    }
+}
+
+macro_rules! choice {
+    ($(#[$doc:meta])* $type:ident, $wgsl:literal { $($(#[$item_doc:meta])* $item:ident = $name:literal,)+ }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum $type { $($(#[$item_doc])* $item,)+ }
+
+        impl Choice for $type {
+            const ALL: &'static [Self] = &[$(Self::$item,)+];
+            const NAMES: &'static [&'static str] = &[$($name,)+];
+            const WGSL: &'static str = $wgsl;
+            fn index(self) -> u32 { self as u32 }
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+    };
+}
+
+choice! {
+    /// How a surface sends light on.
+    Scatter, "SCATTER" {
+        /// Lambert: evenly bright from everywhere.
+        Diffuse = "diffuse",
+        /// A half-normal angle around the mirror direction (paper, section 2.1).
+        Directional = "directional",
+        /// The mirror direction alone.
+        Mirror = "mirror",
+    }
+}
+
+choice! {
+    /// Where in a pixel a path starts.
+    Filter, "FILTER" {
+        /// Evenly over the pixel's own square.
+        Box = "box",
+        /// A tent two pixels wide around the pixel's lower left corner, as the paper's base code has it.
+        Tent = "tent",
+    }
+}
+
+choice! {
+    /// The curve from linear light to PNG values.
+    Encoding, "ENCODING" {
+        /// IEC 61966-2-1.
+        Srgb = "srgb",
+        /// The power 1/2.2, rounded down, as the paper's base code has it.
+        Gamma22 = "gamma22",
+    }
+}
+
+choice! {
+    /// How a point on a spherical lamp is drawn (paper, section 2.2; cone: Shirley, Wang and Zimmerman 1996).
+    LightSampler, "LIGHT_SAMPLER" {
+        /// Case 1: both angles uniform; points crowd at the poles.
+        UniformAngles = "uniform-angles",
+        /// Case 2: the polar angle by the inverse cosine; uniform by area.
+        InverseCosine = "inverse-cosine",
+        /// Case 3: three normal numbers, made a unit vector; uniform by area.
+        Gaussian = "gaussian",
+        /// Uniform over the cone of directions under which the lamp is seen.
+        Cone = "cone",
+    }
+}
+
+choice! {
+    /// What a drawn lamp point is weighted by.
+    LightWeight, "LIGHT_WEIGHT" {
+        /// One over the sampler's true density.
+        Pdf = "pdf",
+        /// The base code's solid angle of a cone, measured to the drawn point.
+        SolidAngle = "solid-angle",
+    }
+}
+
+choice! {
+    /// Which rays find the lamps.
+    LightStrategy, "LIGHT_STRATEGY" {
+        /// Shadow rays only.
+        Sample = "sample",
+        /// Scattered rays that hit a lamp only.
+        Hit = "hit",
+        /// Both, weighted by the power heuristic (Veach 1997).
+        Mis = "mis",
+    }
+}
+
+choice! {
+    /// What surfaces do with direct light.
+    LightDirect, "LIGHT_DIRECT" {
+        /// What their scattering says.
+        Bsdf = "bsdf",
+        /// The paper: every surface is lit as if it were diffuse, and emission counts at the camera's hit only.
+        Lambert = "lambert",
+    }
+}
+
+choice! {
+    /// How diffuse surfaces draw directions.
+    ScatterDiffuse, "SCATTER_DIFFUSE" {
+        /// By the cosine.
+        Cosine = "cosine",
+        /// Evenly over the half sphere, weighted by twice the cosine.
+        Uniform = "uniform",
+    }
+}
+
+choice! {
+    /// What keeps the angle of directional scattering under a right angle.
+    ScatterBound, "SCATTER_BOUND" {
+        /// The half-normal law cut off at a right angle.
+        Truncate = "truncate",
+        /// The smaller of the drawn angle and a right angle.
+        Clamp = "clamp",
+    }
+}
+
+choice! {
+    /// What the probability of going on is (paper, section 2.3).
+    InterruptionRule, "INTERRUPTION_RULE" {
+        /// Always one.
+        None = "none",
+        /// The material's own threshold.
+        Survival = "survival",
+        /// The largest albedo channel.
+        Albedo = "albedo",
+        /// The largest channel of what the next ray would carry, at most 0.95.
+        Throughput = "throughput",
+    }
+}
+
+choice! {
+    /// What happens to the weight of paths that go on.
+    InterruptionWeight, "INTERRUPTION_WEIGHT" {
+        /// Divided by the probability: unbiased.
+        Compensated = "compensated",
+        /// Left alone, as published.
+        Literal = "literal",
+    }
+}
+
+choice! {
+    /// Where in a hit the interruption test stands.
+    InterruptionOrder, "INTERRUPTION_ORDER" {
+        /// Direct light is added first.
+        AfterDirect = "after-direct",
+        /// A path that is interrupted loses this hit's direct light too.
+        BeforeDirect = "before-direct",
+    }
+}
+
+choice! {
+    /// A named set of sampling knobs.
+    Preset, "PRESET" {
+        /// The rules of the paper's base code.
+        Montelight = "montelight",
+        /// The paper, read literally.
+        Paper = "paper",
+        /// The paper's samplers with unbiased weights.
+        Corrected = "corrected",
+        /// The best samplers there are here.
+        Reference = "reference",
+    }
+}

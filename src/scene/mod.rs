@@ -1,0 +1,88 @@
+//! The scene: what stands where, what it is made of, and how it is to be sampled.
+
+use crate::knobs::{Scatter, Settings};
+use glam::DVec3;
+
+/// A scene whose every value has been checked.
+///
+/// Lengths are in scene units, right-handed with y up; radiance and albedo are linear R, G, B.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Where it came from.
+    pub source: Source,
+    pub camera: Camera,
+    /// Radiance of rays that leave the scene.
+    pub background: DVec3,
+    pub materials: Vec<Material>,
+    pub spheres: Vec<Sphere>,
+    pub boxes: Vec<Cuboid>,
+    pub settings: Settings,
+    /// Every knob with the value it has here, by path, as records carry them: all of them but
+    /// `spheres.*` and `boxes.*`, of which only those that `--set` changed.
+    pub knobs: serde_json::Map<String, serde_json::Value>,
+}
+
+/// The text that a scene was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// The path as given, or another name for messages and records.
+    pub name: String,
+    pub text: String,
+}
+
+/// A pinhole camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    pub position: DVec3,
+    pub look_at: DVec3,
+    pub up: DVec3,
+    /// Vertical field of view in degrees, between 0 and 180.
+    pub fov: f64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    pub name: String,
+    pub scatter: Scatter,
+    /// Reflectance per channel, 0 to 1.
+    pub albedo: DVec3,
+    /// Sigma of the half-normal angle of directional scattering, radians, > 0.
+    pub spread: f64,
+    /// The paper's threshold t, 0 to 1.
+    pub survival: f64,
+    /// Radiance, >= 0.
+    pub emission: DVec3,
+}
+
+impl Material {
+    pub fn emits(&self) -> bool {
+        self.emission.max_element() > 0.0
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere {
+    pub center: DVec3,
+    pub radius: f64,
+    /// Index into the scene's materials.
+    pub material: usize,
+}
+
+/// A box: `Box` is Rust's own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cuboid {
+    pub min: DVec3,
+    pub max: DVec3,
+    /// Degrees about the box's centre, applied about x, then y, then z.
+    pub rotation: DVec3,
+    /// Index into the scene's materials.
+    pub material: usize,
+}
+
+impl Scene {
+    /// The spheres that emit: the lamps that are sampled.
+    pub fn lamps(&self) -> impl Iterator<Item = (usize, &Sphere)> {
+        let emits = |(_, sphere): &(usize, &Sphere)| self.materials[sphere.material].emits();
+        self.spheres.iter().enumerate().filter(emits)
+    }
+}
