@@ -3,10 +3,15 @@
 #![forbid(unsafe_code)]
 
 pub mod cli;
+pub mod cpu;
+pub mod device;
 pub mod error;
 pub mod film;
+pub mod gpu;
 pub mod knobs;
 pub mod pack;
+pub mod render;
 pub mod scene;
+pub mod shader;
 
 pub use error::{Error, Result};

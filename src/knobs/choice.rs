@@ -55,9 +55,11 @@ macro_rules! choice {
     };
 }
 
+pub(crate) use choice;
+
 choice! {
     /// How a surface sends light on.
-    Scatter, "SCATTER" {
+    Scatter, "SURFACE" {
         /// Lambert: evenly bright from everywhere.
         Diffuse = "diffuse",
         /// A half-normal angle around the mirror direction (paper, section 2.1).

@@ -3,5 +3,6 @@
 mod choice;
 mod settings;
 
+pub(crate) use choice::choice;
 pub use choice::*;
 pub use settings::*;

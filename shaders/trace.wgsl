@@ -1,0 +1,279 @@
+// The tracing kernel: one lane a pixel, one flat loop over the vertices of the pixel's paths. A
+// lane whose path ends starts the pixel's next sample, so that lanes stay full.
+
+// #import maths
+// #import random
+// #import camera
+// #import ray
+// #import scene
+// #import scatter
+// #import light
+// #import interruption
+
+override LIGHT_STRATEGY: u32;
+override LIGHT_DIRECT: u32;
+// Whether the ray after the last reflection, which can only find emission, is traced.
+override LAST_RAY: u32;
+
+struct Job {
+    camera: Camera,
+    pole: Basis,
+    background: vec3<f32>,
+    // Largest radiance of a sample and channel.
+    clamp: f32,
+    // Upper left pixel and size of the block.
+    corner: vec2<u32>,
+    size: vec2<u32>,
+    // 64 bits each, as (low, high).
+    seed: vec2<u32>,
+    first_sample: vec2<u32>,
+    samples: u32,
+    max_bounces: u32,
+    interruption_start: u32,
+    // No lane takes more steps than this.
+    steps: u32,
+}
+
+// What a run of samples of one pixel gave. Runs end where the sample index is a multiple of
+// RUN_LENGTH: sums in f32 never depend on how the work was split.
+struct Tally {
+    mean: vec3<f32>,
+    rays: u32,
+    squares: vec3<f32>,
+    non_finite: u32,
+}
+
+@group(1) @binding(0) var<uniform> job: Job;
+@group(1) @binding(1) var<storage, read_write> tallies: array<Tally>;
+
+// A path on its way.
+struct Path {
+    key: vec4<u32>,
+    ray: Ray,
+    throughput: vec3<f32>,
+    radiance: vec3<f32>,
+    // Number of the hit that the ray is looking for; the camera's is 0.
+    vertex: u32,
+    // Of the direction the ray was scattered into; 0 where it has none.
+    density: f32,
+    rays: u32,
+    alive: bool,
+}
+
+fn start_path(pixel: vec2<u32>, sample: vec2<u32>) -> Path {
+    let key = random_key(job.seed, pixel, sample);
+    let film = sample_film(pixel, random_unit(key, 0u, 0u).xy);
+    let ray = Ray(vec3<f32>(0.0), camera_direction(job.camera, film), 0u, false);
+    return Path(key, ray, vec3<f32>(1.0), vec3<f32>(0.0), 0u, 0.0, 0u, true);
+}
+
+// Whether what a ray finds by itself counts. As published only what the camera sees does.
+fn emission_counts(path: Path) -> bool {
+    return path.vertex == 0u || LIGHT_DIRECT == LIGHT_DIRECT_BSDF;
+}
+
+// Weight of a lamp's emission found by a ray. Where shadow rays could not have found it (before
+// the first reflection, or after a direction without density), all of it.
+fn lamp_hit_weight(path: Path, surface: Surface, distance: f32) -> f32 {
+    if path.density == 0.0 || LIGHT_STRATEGY == LIGHT_STRATEGY_HIT {
+        return 1.0;
+    }
+    if LIGHT_STRATEGY == LIGHT_STRATEGY_SAMPLE {
+        return 0.0;
+    }
+    let lamp = lamps[surface.lamp - 1u];
+    let outward = select(surface.normal, -surface.normal, surface.inside);
+    let inverse_density = light_inverse_density(
+        lamp, job.pole, path.ray.origin, surface.inside, path.ray.direction, distance, outward);
+    return power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30));
+}
+
+fn emitted(path: Path, surface: Surface, distance: f32) -> vec3<f32> {
+    let emission = materials[surface.material].emission;
+    if !emission_counts(path) || largest(emission) == 0.0 {
+        return vec3<f32>(0.0);
+    }
+    if surface.lamp == 0u {
+        return emission;
+    }
+    return emission * lamp_hit_weight(path, surface, distance);
+}
+
+// What one lamp sends to a surface and the surface sends on along the path, by one shadow ray
+// from `origin`, a point just off the surface.
+fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: vec4<f32>) -> DirectLight {
+    let material = materials[surface.material];
+    let incoming = path.ray.direction;
+    let own = surface.body == lamp.body;
+    let inside = select(distance(lamp.center, origin) < lamp.radius, surface.inside, own);
+    let light = sample_light(lamp, job.pole, origin, inside, u);
+    var reflected = evaluate_lambert(material, surface.normal, light.direction);
+    if LIGHT_DIRECT == LIGHT_DIRECT_BSDF {
+        reflected = evaluate_scatter(material, surface.normal, incoming, light.direction);
+    }
+    var weight = light.weight;
+    if LIGHT_STRATEGY == LIGHT_STRATEGY_MIS {
+        let density = scatter_density(material, surface.normal, incoming, light.direction);
+        weight *= power_heuristic(light.inverse_density * density);
+    }
+    let value = reflected * weight * lamp.emission;
+    // A lamp never lights its own outer side.
+    if largest(value) == 0.0 || (own && !surface.inside) {
+        return DirectLight(vec3<f32>(0.0), 0u);
+    }
+    let shadow = Ray(origin, light.direction, surface.body, surface.inside);
+    let blocked = occluded(shadow, light.distance, lamp.body);
+    return DirectLight(select(value, vec3<f32>(0.0), blocked), 1u);
+}
+
+struct DirectLight {
+    radiance: vec3<f32>,
+    rays: u32,
+}
+
+// The paper's direct light: one shadow ray to each lamp.
+fn direct_light(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight {
+    var sum = DirectLight(vec3<f32>(0.0), 0u);
+    if LIGHT_STRATEGY == LIGHT_STRATEGY_HIT {
+        return sum;
+    }
+    for (var i = 0u; i < LAMP_COUNT; i++) {
+        let u = random_unit(path.key, path.vertex + 1u, i + 1u);
+        let one = light_from(lamps[i], path, surface, origin, u);
+        sum = DirectLight(sum.radiance + one.radiance, sum.rays + one.rays);
+    }
+    return sum;
+}
+
+// Whether the ray that leaves the hit before the last can still bring something.
+fn last_ray_counts(scattered: Scattered) -> bool {
+    return LAST_RAY == LAST_RAY_ALWAYS || (LAST_RAY == LAST_RAY_WITHOUT_DENSITY && scattered.density == 0.0);
+}
+
+// The ray that scattering at a surface makes of the path; the path ends where it carries nothing.
+fn scatter_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, u: vec2<f32>) {
+    let scattered = sample_scatter(materials[surface.material], surface.normal, (*path).ray.direction, u);
+    (*path).throughput *= scattered.weight;
+    (*path).density = scattered.density;
+    (*path).ray = Ray(origin, scattered.direction, surface.body, surface.inside);
+    (*path).vertex += 1u;
+    let useful = (*path).vertex < job.max_bounces || last_ray_counts(scattered);
+    (*path).alive = useful && largest((*path).throughput) > 0.0;
+}
+
+// Emission, direct light and the next ray of one hit; the interruption test stands before or
+// after direct light.
+fn visit(path: ptr<function, Path>, surface: Surface, distance: f32) {
+    (*path).radiance += (*path).throughput * emitted(*path, surface, distance);
+    if (*path).vertex >= job.max_bounces {
+        (*path).alive = false;
+        return;
+    }
+    let material = materials[surface.material];
+    let u = random_unit((*path).key, (*path).vertex + 1u, 0u);
+    let tested = INTERRUPTION_RULE != INTERRUPTION_RULE_NONE && (*path).vertex >= job.interruption_start;
+    let carried = (*path).throughput * material.albedo;
+    let probability = select(1.0, survival_probability(material.survival, material.albedo, carried), tested);
+    let survives = u.z < probability;
+    let weight = select(1.0, survival_weight(probability), tested);
+    if INTERRUPTION_ORDER == INTERRUPTION_ORDER_BEFORE_DIRECT {
+        (*path).throughput *= weight;
+        (*path).alive = survives;
+        if !survives {
+            return;
+        }
+    }
+    let origin = offset_origin(surface.point, surface.normal);
+    let direct = direct_light(*path, surface, origin);
+    (*path).radiance += (*path).throughput * direct.radiance;
+    (*path).rays += direct.rays;
+    if INTERRUPTION_ORDER == INTERRUPTION_ORDER_AFTER_DIRECT {
+        (*path).throughput *= weight;
+        (*path).alive = survives;
+        if !survives {
+            return;
+        }
+    }
+    scatter_path(path, surface, origin, u.xy);
+}
+
+fn step_path(path: ptr<function, Path>) {
+    let hit = nearest_hit((*path).ray);
+    (*path).rays += 1u;
+    if hit.body == 0u {
+        let counts = emission_counts(*path);
+        (*path).radiance += (*path).throughput * select(vec3<f32>(0.0), job.background, counts);
+        (*path).alive = false;
+        return;
+    }
+    visit(path, surface_at(hit, (*path).ray), hit.distance);
+}
+
+// Sums of one run, as distances from its first sample: they lose no digits where all are alike.
+struct Run {
+    first: vec3<f32>,
+    sum: vec3<f32>,
+    squares: vec3<f32>,
+    samples: u32,
+    rays: u32,
+    non_finite: u32,
+}
+
+fn empty_run() -> Run {
+    return Run(vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), 0u, 0u, 0u);
+}
+
+fn add_sample(run: ptr<function, Run>, path: Path) {
+    let finite = all_finite(path.radiance);
+    let radiance = select(vec3<f32>(0.0), min(path.radiance, vec3<f32>(job.clamp)), finite);
+    let first_fault = select(0u, (*run).samples << 16u, (*run).non_finite == 0u);
+    (*run).non_finite += select(first_fault + 1u, 0u, finite);
+    (*run).first = select((*run).first, radiance, (*run).samples == 0u);
+    let apart = radiance - (*run).first;
+    (*run).sum += apart;
+    (*run).squares += apart * apart;
+    (*run).samples += 1u;
+    (*run).rays += path.rays;
+}
+
+fn tally_of(run: Run) -> Tally {
+    let shift = run.sum / f32(run.samples);
+    let squares = max(run.squares - run.sum * shift, vec3<f32>(0.0));
+    return Tally(run.first + shift, run.rays, squares, run.non_finite);
+}
+
+// Sample number `count` of this block, carried into the high word.
+fn sample_index(count: u32) -> vec2<u32> {
+    let low = job.first_sample.x + count;
+    return vec2<u32>(low, job.first_sample.y + select(0u, 1u, low < job.first_sample.x));
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) lane: vec3<u32>) {
+    if lane.x >= job.size.x || lane.y >= job.size.y {
+        return;
+    }
+    let pixel = job.corner + lane.xy;
+    var slot = lane.y * job.size.x + lane.x;
+    var run = empty_run();
+    var count = 0u;
+    var path = start_path(pixel, sample_index(0u));
+    for (var step = 0u; step < job.steps; step++) {
+        step_path(&path);
+        if !path.alive {
+            add_sample(&run, path);
+            count += 1u;
+            let next = sample_index(count);
+            let done = count == job.samples;
+            if done || next.x % RUN_LENGTH == 0u {
+                tallies[slot] = tally_of(run);
+                slot += job.size.x * job.size.y;
+                run = empty_run();
+            }
+            if done {
+                break;
+            }
+            path = start_path(pixel, next);
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Twin of `shaders/light.wgsl`: points on spherical lamps, sample and density.
+
+use super::maths::*;
+use crate::knobs::{LightSampler, LightWeight};
+use crate::pack::{Lamp, Strategy};
+use glam::{Vec2, Vec3, Vec4};
+use std::f32::consts::PI;
+
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample {
+    pub direction: Vec3,
+    /// How far the shadow ray must be free.
+    pub distance: f32,
+    /// What the lamp's radiance is weighted by, in steradians.
+    pub weight: f32,
+    /// Inverse density of this direction; 0 where the point cannot be seen.
+    pub inverse_density: f32,
+}
+
+/// The cone under which a lamp is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    pub axis: Vec3,
+    pub distance: f32,
+    /// sin^2 and 1 - cos of the cone's half angle, without cancellation.
+    pub sine_squared: f32,
+    pub height: f32,
+    /// False on, in or all but on the lamp, where there is no cone.
+    pub open: bool,
+}
+
+pub fn lamp_cone(lamp: &Lamp, origin: Vec3) -> Cone {
+    let to_center = Vec3::from(lamp.center) - origin;
+    let distance = to_center.length();
+    let ratio = lamp.radius / greater(distance, 1e-30);
+    let sine_squared = lesser(ratio * ratio, 1.0);
+    Cone {
+        axis: to_center / greater(distance, 1e-30),
+        distance,
+        sine_squared,
+        height: sine_squared / (1.0 + root(1.0 - sine_squared)),
+        open: distance > lamp.radius * 1.0001,
+    }
+}
+
+pub fn cone_solid_angle(cone: Cone) -> f32 {
+    2.0 * PI * cone.height
+}
+
+/// The base code's weight: 2 pi (1 - sqrt(1 - s^2 / d^2)), the root's argument kept at 0 or above.
+pub fn solid_angle_weight(radius: f32, distance: f32) -> f32 {
+    let ratio = radius / greater(distance, 1e-30);
+    let sine_squared = lesser(ratio * ratio, 1.0);
+    2.0 * PI * sine_squared / (1.0 + root(1.0 - sine_squared))
+}
+
+fn light_pole(strategy: &Strategy, pole: Basis, cone: Cone) -> Basis {
+    if strategy.pole_at_receiver {
+        basis_around(-cone.axis)
+    } else {
+        pole
+    }
+}
+
+/// Case 1: both angles even.
+fn sample_uniform_angles(pole: Basis, u: Vec2) -> Vec3 {
+    let polar = sincos_turn(0.5 * u.y);
+    from_basis(pole, (polar.x * unit_circle(u.x)).extend(polar.y))
+}
+
+/// Case 2: phi = acos(1 - 2 u).
+fn sample_inverse_cosine(pole: Basis, u: Vec2) -> Vec3 {
+    from_basis(pole, unit_sphere(Vec2::new(u.y, u.x)))
+}
+
+/// Case 3: three normal numbers made a unit vector.
+fn sample_gaussian(u: Vec4) -> Vec3 {
+    let radius = Vec2::new(
+        (-2.0 * (1.0 - u.x).ln()).sqrt(),
+        (-2.0 * (1.0 - u.y).ln()).sqrt(),
+    );
+    let v = (radius.x * unit_circle(u.z)).extend(radius.y * unit_circle(u.w).x);
+    let size = v.dot(v);
+    if size > 1e-30 {
+        v * (1.0 / size.sqrt())
+    } else {
+        Vec3::Z
+    }
+}
+
+/// Unit vector from the lamp's centre to a point of its surface.
+pub fn sample_surface(strategy: &Strategy, pole: Basis, u: Vec4) -> Vec3 {
+    match strategy.light_sampler {
+        LightSampler::UniformAngles => sample_uniform_angles(pole, Vec2::new(u.x, u.y)),
+        LightSampler::Gaussian => sample_gaussian(u),
+        LightSampler::InverseCosine | LightSampler::Cone => {
+            sample_inverse_cosine(pole, Vec2::new(u.x, u.y))
+        }
+    }
+}
+
+/// Inverse area density of [`sample_surface`] at a unit vector.
+pub fn surface_inverse_density(
+    strategy: &Strategy,
+    lamp: &Lamp,
+    pole: Basis,
+    outward: Vec3,
+) -> f32 {
+    let area = lamp.radius * lamp.radius * PI;
+    match strategy.light_sampler {
+        LightSampler::UniformAngles => 2.0 * PI * area * outward.cross(pole.z).length(),
+        _ => 4.0 * area,
+    }
+}
+
+/// From area to solid angle: |cos| / distance^2.
+fn area_to_solid_angle(outward: Vec3, direction: Vec3, distance: f32, inside: bool) -> f32 {
+    let toward = -outward.dot(direction);
+    let seen = if inside {
+        toward.abs()
+    } else {
+        greater(toward, 0.0)
+    };
+    seen / greater(distance * distance, 1e-30)
+}
+
+/// Shirley, Wang and Zimmerman 1996.
+fn sample_cone(strategy: &Strategy, lamp: &Lamp, cone: Cone, u: Vec2) -> LightSample {
+    let fallen = u.x * cone.height;
+    let sine_squared = fallen * (2.0 - fallen);
+    let sine = root(sine_squared);
+    let cosine = 1.0 - fallen;
+    let basis = basis_around(cone.axis);
+    let direction = from_basis(basis, (sine * unit_circle(u.y)).extend(cosine)).normalize();
+    let half_chord = root(lamp.radius * lamp.radius - cone.distance * cone.distance * sine_squared);
+    let distance = cone.distance * cosine - half_chord;
+    let inverse_density = cone_solid_angle(cone);
+    let weight = match strategy.light_weight {
+        LightWeight::Pdf => inverse_density,
+        LightWeight::SolidAngle => solid_angle_weight(lamp.weight_radius, distance),
+    };
+    LightSample {
+        direction,
+        distance,
+        weight,
+        inverse_density,
+    }
+}
+
+/// `inside`: whether `origin` is inside the lamp.
+pub fn sample_light(
+    strategy: &Strategy,
+    lamp: &Lamp,
+    pole: Basis,
+    origin: Vec3,
+    inside: bool,
+    u: Vec4,
+) -> LightSample {
+    let cone = lamp_cone(lamp, origin);
+    if strategy.light_sampler == LightSampler::Cone && cone.open && !inside {
+        return sample_cone(strategy, lamp, cone, Vec2::new(u.x, u.y));
+    }
+    let axes = light_pole(strategy, pole, cone);
+    let outward = sample_surface(strategy, axes, u);
+    let to_point = Vec3::from(lamp.center) + lamp.radius * outward - origin;
+    let distance = to_point.length();
+    let direction = to_point / greater(distance, 1e-30);
+    let geometry = area_to_solid_angle(outward, direction, distance, inside);
+    let inverse_density = surface_inverse_density(strategy, lamp, axes, outward) * geometry;
+    if strategy.light_weight == LightWeight::SolidAngle {
+        let chord = if inside {
+            0.0
+        } else {
+            -2.0 * lamp.radius * outward.dot(direction)
+        };
+        let near = if chord < 0.0 {
+            distance + chord
+        } else {
+            distance
+        };
+        let weight = solid_angle_weight(lamp.weight_radius, distance);
+        return LightSample {
+            direction,
+            distance: near,
+            weight,
+            inverse_density,
+        };
+    }
+    LightSample {
+        direction,
+        distance,
+        weight: inverse_density,
+        inverse_density,
+    }
+}
+
+/// Where a direction meets a lamp.
+#[derive(Clone, Copy, Debug)]
+pub struct LampHit {
+    /// Whether the ray comes from inside the lamp.
+    pub inside: bool,
+    pub direction: Vec3,
+    pub distance: f32,
+    /// Outward unit normal.
+    pub outward: Vec3,
+}
+
+/// Inverse density with which [`sample_light`] draws the direction that meets the lamp at `hit`.
+pub fn light_inverse_density(
+    strategy: &Strategy,
+    lamp: &Lamp,
+    pole: Basis,
+    origin: Vec3,
+    hit: LampHit,
+) -> f32 {
+    let cone = lamp_cone(lamp, origin);
+    if strategy.light_sampler == LightSampler::Cone && cone.open && !hit.inside {
+        return cone_solid_angle(cone);
+    }
+    let geometry = area_to_solid_angle(hit.outward, hit.direction, hit.distance, hit.inside);
+    surface_inverse_density(
+        strategy,
+        lamp,
+        light_pole(strategy, pole, cone),
+        hit.outward,
+    ) * geometry
+}
+
+/// Power heuristic with exponent 2 (Veach 1997): `ratio` is the other strategy's density over its own.
+pub fn power_heuristic(ratio: f32) -> f32 {
+    let bounded = lesser(ratio, 1e15);
+    1.0 / (1.0 + bounded * bounded)
+}

@@ -1,0 +1,151 @@
+//! Twin of `shaders/scatter.wgsl`: how surfaces send light on.
+
+use super::maths::*;
+use crate::knobs::{Scatter, ScatterBound, ScatterDiffuse};
+use crate::pack::{Material, Strategy};
+use glam::{Vec2, Vec3};
+use std::f32::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+
+const DIFFUSE: u32 = Scatter::Diffuse as u32;
+const DIRECTIONAL: u32 = Scatter::Directional as u32;
+
+/// A drawn direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattered {
+    pub direction: Vec3,
+    /// Of drawing this direction, by solid angle; 0 where it has none.
+    pub density: f32,
+    /// Scattering function times cosine over density; zero where the light is absorbed.
+    pub weight: Vec3,
+}
+
+pub fn mirror_direction(normal: Vec3, incoming: Vec3) -> Vec3 {
+    (incoming - 2.0 * normal.dot(incoming) * normal).normalize()
+}
+
+fn sample_diffuse(strategy: &Strategy, material: &Material, normal: Vec3, u: Vec2) -> Scattered {
+    let albedo = Vec3::from(material.albedo);
+    let ball = unit_sphere(u);
+    if strategy.scatter_diffuse == ScatterDiffuse::Uniform {
+        let up = ball.dot(normal);
+        let direction = if up >= 0.0 { ball } else { -ball };
+        return Scattered {
+            direction,
+            density: 0.5 / PI,
+            weight: albedo * (2.0 * up.abs()),
+        };
+    }
+    let sum = normal + ball;
+    let size = sum.dot(sum);
+    let direction = if size > 1e-12 {
+        sum * (1.0 / size.sqrt())
+    } else {
+        normal
+    };
+    let up = direction.dot(normal);
+    Scattered {
+        direction,
+        density: greater(up, 0.0) / PI,
+        weight: albedo,
+    }
+}
+
+fn lobe_density(material: &Material, chord: f32) -> f32 {
+    if chord * chord >= 2.0 {
+        return 0.0;
+    }
+    let theta = angle_of_chord(chord);
+    let ratio = theta / material.spread;
+    let sine = chord * root(1.0 - 0.25 * chord * chord);
+    material.lobe_scale * (-0.5 * ratio * ratio).exp() / greater(sine, 1e-6)
+}
+
+fn sample_directional(
+    strategy: &Strategy,
+    material: &Material,
+    normal: Vec3,
+    incoming: Vec3,
+    u: Vec2,
+) -> Scattered {
+    let drawn = SQRT_2 * material.spread * inverse_erf(u.x * material.lobe_mass);
+    let theta = lesser(drawn, FRAC_PI_2);
+    let polar = sincos_turn(theta / TAU);
+    let basis = basis_around(mirror_direction(normal, incoming));
+    let direction = from_basis(basis, (polar.x * unit_circle(u.y)).extend(polar.y)).normalize();
+    let chord = 2.0 * sincos_turn(theta / (2.0 * TAU)).x;
+    let on_ring = strategy.scatter_bound == ScatterBound::Clamp && drawn >= FRAC_PI_2;
+    let above = direction.dot(normal) > 0.0;
+    Scattered {
+        direction,
+        density: if on_ring {
+            0.0
+        } else {
+            lobe_density(material, chord)
+        },
+        weight: if above {
+            Vec3::from(material.albedo)
+        } else {
+            Vec3::ZERO
+        },
+    }
+}
+
+pub fn sample_scatter(
+    strategy: &Strategy,
+    material: &Material,
+    normal: Vec3,
+    incoming: Vec3,
+    u: Vec2,
+) -> Scattered {
+    match material.scatter {
+        DIFFUSE => sample_diffuse(strategy, material, normal, u),
+        DIRECTIONAL => sample_directional(strategy, material, normal, incoming, u),
+        _ => Scattered {
+            direction: mirror_direction(normal, incoming),
+            density: 0.0,
+            weight: Vec3::from(material.albedo),
+        },
+    }
+}
+
+/// Density with which [`sample_scatter`] draws `outgoing`.
+pub fn scatter_density(
+    strategy: &Strategy,
+    material: &Material,
+    normal: Vec3,
+    incoming: Vec3,
+    outgoing: Vec3,
+) -> f32 {
+    let up = normal.dot(outgoing);
+    match (material.scatter, strategy.scatter_diffuse) {
+        (DIFFUSE, ScatterDiffuse::Uniform) if up >= 0.0 => 0.5 / PI,
+        (DIFFUSE, ScatterDiffuse::Cosine) => greater(up, 0.0) / PI,
+        (DIRECTIONAL, _) => lobe_density(
+            material,
+            outgoing.distance(mirror_direction(normal, incoming)),
+        ),
+        _ => 0.0,
+    }
+}
+
+/// Lambert's scattering function times cosine.
+pub fn evaluate_lambert(material: &Material, normal: Vec3, outgoing: Vec3) -> Vec3 {
+    Vec3::from(material.albedo) * (greater(normal.dot(outgoing), 0.0) / PI)
+}
+
+/// Scattering function times cosine; the part with a density only.
+pub fn evaluate_scatter(
+    strategy: &Strategy,
+    material: &Material,
+    normal: Vec3,
+    incoming: Vec3,
+    outgoing: Vec3,
+) -> Vec3 {
+    if material.scatter == DIFFUSE {
+        return evaluate_lambert(material, normal, outgoing);
+    }
+    if normal.dot(outgoing) <= 0.0 {
+        return Vec3::ZERO;
+    }
+    Vec3::from(material.albedo) * scatter_density(strategy, material, normal, incoming, outgoing)
+}

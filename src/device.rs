@@ -1,0 +1,124 @@
+//! What can trace: a GPU through wgpu, or the CPU twin. Both answer the same calls.
+
+use crate::error::{Error, Result};
+use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally};
+use serde::{Deserialize, Serialize};
+
+/// What a device is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DeviceKind {
+    /// A GPU.
+    Hardware,
+    /// A graphics driver that runs on the CPU, such as Mesa's lavapipe.
+    Software,
+    /// The built-in CPU twin.
+    Cpu,
+}
+
+/// A device, as records name it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DeviceInfo {
+    pub kind: DeviceKind,
+    pub name: String,
+    /// The driver's name and version.
+    pub driver: String,
+    /// The graphics interface: `vulkan`, `metal`, `dx12`; `none` for the CPU twin.
+    pub backend: String,
+    /// PCI address such as `0000:65:00.0`; empty where there is none.
+    pub pci: String,
+}
+
+/// What a user asks for with `--device`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DeviceRequest {
+    /// The first GPU, else a software driver, else the CPU twin.
+    Auto,
+    /// The CPU twin.
+    Cpu,
+    /// A GPU.
+    Hardware,
+    /// A software driver.
+    Software,
+    /// A place in the list that `lampray devices` prints.
+    Index(usize),
+    /// Part of a device's name, whatever the case.
+    Name(String),
+    /// A PCI address.
+    Pci(String),
+}
+
+impl std::str::FromStr for DeviceRequest {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        if let Some(address) = text.strip_prefix("pci:") {
+            return Ok(Self::Pci(address.to_lowercase()));
+        }
+        Ok(match text {
+            "auto" => Self::Auto,
+            "cpu" => Self::Cpu,
+            "gpu" | "hardware" => Self::Hardware,
+            "software" => Self::Software,
+            "" => {
+                return Err(Error::Usage(
+                    "--device is empty: see `lampray devices`".into(),
+                ));
+            }
+            _ => text
+                .parse()
+                .map_or_else(|_| Self::Name(text.to_string()), Self::Index),
+        })
+    }
+}
+
+/// Something that traces. A call may take as long as its block says; none of them writes files.
+pub trait Device {
+    fn info(&self) -> &DeviceInfo;
+
+    /// Makes a scene the one that is traced, with everything compiled that tracing it needs.
+    ///
+    /// # Errors
+    /// [`Error::Device`] where the scene does not fit, [`Error::DeviceLost`], [`Error::Internal`].
+    fn load(&mut self, scene: &Packed) -> Result<()>;
+
+    /// Traces `samples` samples from `first_sample` on of each pixel of `rect`.
+    ///
+    /// The tallies come run by run, and in each run row by row; runs end where the sample index is
+    /// a multiple of [`crate::pack::RUN_LENGTH`].
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`] or [`Error::Internal`]; nothing of the block is returned then.
+    fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>>;
+
+    /// What the rays through the centres of the pixels of `rect` meet first, row by row.
+    ///
+    /// # Errors
+    /// As [`Device::trace`].
+    fn features(&mut self, rect: Rect) -> Result<Vec<Feature>>;
+
+    /// Draws by the light or the scatter sampler.
+    ///
+    /// # Errors
+    /// As [`Device::trace`].
+    fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>>;
+}
+
+/// Number of runs that a range of samples falls into.
+pub fn runs(first_sample: u64, samples: u32) -> u32 {
+    let run = u64::from(crate::pack::RUN_LENGTH);
+    let end = first_sample + u64::from(samples);
+    (end.div_ceil(run) - first_sample / run) as u32
+}
+
+/// First sample and number of samples of each run of a range.
+pub fn run_ranges(first_sample: u64, samples: u32) -> impl Iterator<Item = (u64, u32)> {
+    let run = u64::from(crate::pack::RUN_LENGTH);
+    let end = first_sample + u64::from(samples);
+    let first_run = first_sample / run;
+    (first_run..end.div_ceil(run)).map(move |index| {
+        let start = (index * run).max(first_sample);
+        let stop = ((index + 1) * run).min(end);
+        (start, (stop - start) as u32)
+    })
+}

@@ -1,0 +1,142 @@
+//! Pipelines: a kernel, its bindings, and the strategy that its override constants spell.
+
+use super::device::Guard;
+use crate::error::Result;
+use crate::knobs::Choice;
+use crate::pack::Strategy;
+use crate::shader::{self, Kernel, SceneArrays};
+use std::borrow::Cow;
+
+/// What a kernel binds in group 1, after the scene in group 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    Uniform,
+    Read,
+    Write,
+}
+
+/// The bindings of each kernel's group 1, in order.
+pub fn bindings(kernel: Kernel) -> &'static [Binding] {
+    match kernel {
+        Kernel::Trace | Kernel::Features | Kernel::Points => &[Binding::Uniform, Binding::Write],
+        Kernel::Probe => &[Binding::Uniform, Binding::Read, Binding::Write],
+    }
+}
+
+/// Whether a kernel traces the scene, and so binds it in group 0.
+pub fn binds_scene(kernel: Kernel) -> bool {
+    matches!(kernel, Kernel::Trace | Kernel::Features)
+}
+
+/// A kernel ready to run.
+#[derive(Debug)]
+pub struct Pipeline {
+    pub pipeline: wgpu::ComputePipeline,
+    pub scene_layout: wgpu::BindGroupLayout,
+    pub pass_layout: wgpu::BindGroupLayout,
+}
+
+fn entry(binding: usize, kind: Binding) -> wgpu::BindGroupLayoutEntry {
+    let ty = match kind {
+        Binding::Uniform => wgpu::BufferBindingType::Uniform,
+        Binding::Read => wgpu::BufferBindingType::Storage { read_only: true },
+        Binding::Write => wgpu::BufferBindingType::Storage { read_only: false },
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding: binding as u32,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}
+
+fn layout(device: &wgpu::Device, kinds: impl Iterator<Item = Binding>) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = kinds
+        .enumerate()
+        .map(|(binding, kind)| entry(binding, kind))
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &entries,
+    })
+}
+
+/// The kinds of the scene's arrays, in the order of their bindings.
+pub fn scene_bindings(arrays: SceneArrays) -> impl Iterator<Item = Binding> {
+    arrays.list().into_iter().map(|(_, _, length, bytes)| {
+        if SceneArrays::is_uniform(length, bytes) {
+            Binding::Uniform
+        } else {
+            Binding::Read
+        }
+    })
+}
+
+impl Pipeline {
+    /// Compiles a kernel for a strategy and for arrays of these lengths.
+    ///
+    /// # Errors
+    /// [`crate::Error::Internal`] with file and line where the shader is at fault.
+    pub fn new(
+        guard: &Guard,
+        kernel: Kernel,
+        strategy: &Strategy,
+        arrays: SceneArrays,
+    ) -> Result<Self> {
+        let joined = shader::source(kernel, arrays)?;
+        let module = shader::parse(&joined)?;
+        let constants = constants(&module, strategy);
+        let scene: Vec<_> = if binds_scene(kernel) {
+            scene_bindings(arrays).collect()
+        } else {
+            Vec::new()
+        };
+        guard.scoped(|device| {
+            let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(kernel.name()),
+                source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+            });
+            let scene_layout = layout(device, scene.into_iter());
+            let pass_layout = layout(device, bindings(kernel).iter().copied());
+            let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(kernel.name()),
+                bind_group_layouts: &[Some(&scene_layout), Some(&pass_layout)],
+                immediate_size: 0,
+            });
+            let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(kernel.name()),
+                layout: Some(&pipeline_layout),
+                module: &shader,
+                entry_point: Some("main"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    zero_initialize_workgroup_memory: false,
+                },
+                cache: None,
+            });
+            Self {
+                pipeline,
+                scene_layout,
+                pass_layout,
+            }
+        })
+    }
+}
+
+/// The strategy's constants that this kernel has.
+fn constants(module: &naga::Module, strategy: &Strategy) -> Vec<(&'static str, f64)> {
+    let declared = |name: &str| {
+        module
+            .overrides
+            .iter()
+            .any(|(_, constant)| constant.name.as_deref() == Some(name))
+    };
+    let all = strategy.overrides().into_iter();
+    all.filter(|(name, _)| declared(name))
+        .map(|(name, value)| (name, f64::from(value)))
+        .collect()
+}

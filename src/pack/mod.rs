@@ -1,0 +1,217 @@
+//! From a scene to flat buffers: what a device needs, with no device in it.
+
+mod layout;
+mod rect;
+mod strategy;
+
+pub use layout::*;
+pub use rect::Rect;
+pub use strategy::{LastRay, RUN_LENGTH, Strategy};
+
+use crate::knobs::{Choice, Pole, ScatterBound, Settings};
+use crate::scene::{self, Scene};
+use glam::{DMat3, DVec3};
+
+/// A scene as a device sees it: in the eye's own place, so that what is near has small coordinates.
+#[derive(Clone, Debug)]
+pub struct Packed {
+    pub camera: Camera,
+    pub pole: Basis,
+    pub background: Vec3,
+    /// Largest radiance of a sample; huge where there is no clamp.
+    pub clamp: f32,
+    pub seed: u64,
+    pub max_bounces: u32,
+    pub interruption_start: u32,
+    pub materials: Vec<Material>,
+    pub spheres: Vec<Sphere>,
+    /// Unrotated boxes first.
+    pub boxes: Vec<Cuboid>,
+    pub lamps: Vec<Lamp>,
+    pub strategy: Strategy,
+}
+
+impl Packed {
+    pub fn new(scene: &Scene) -> Self {
+        let eye = scene.camera.position;
+        let settings = &scene.settings;
+        let (spheres, lamps) = pack_spheres(scene, eye);
+        let (boxes, rotated) = pack_boxes(scene, eye);
+        let strategy = Strategy::new(
+            scene,
+            spheres.len() as u32,
+            boxes.len() as u32 - rotated,
+            rotated,
+            lamps.len() as u32,
+        );
+        let material = |material| pack_material(material, settings.scatter.bound);
+        Self {
+            camera: pack_camera(&scene.camera, settings.image.width, settings.image.height),
+            pole: pack_pole(settings.light.pole),
+            background: single(scene.background),
+            clamp: settings.render.clamp.map_or(f32::MAX, |clamp| clamp as f32),
+            seed: settings.render.seed,
+            max_bounces: settings.render.max_bounces,
+            interruption_start: settings.interruption.start,
+            materials: scene.materials.iter().map(material).collect(),
+            spheres,
+            boxes,
+            lamps,
+            strategy,
+        }
+    }
+
+    /// One dispatch of the tracing kernel: `samples` samples from `first_sample` on of each pixel of `rect`.
+    pub fn job(&self, rect: Rect, first_sample: u64, samples: u32) -> Job {
+        Job {
+            camera: self.camera,
+            pole: self.pole,
+            background: self.background,
+            clamp: self.clamp,
+            corner: [rect.x0, rect.y0],
+            size: [rect.width(), rect.height()],
+            seed: words(self.seed),
+            first_sample: words(first_sample),
+            samples,
+            max_bounces: self.max_bounces,
+            interruption_start: self.interruption_start,
+            steps: samples.saturating_mul(self.max_bounces.saturating_add(1)),
+        }
+    }
+}
+
+/// A 64-bit number as (low, high).
+pub fn words(number: u64) -> [u32; 2] {
+    [number as u32, (number >> 32) as u32]
+}
+
+fn single(v: DVec3) -> Vec3 {
+    v.as_vec3().to_array()
+}
+
+fn basis(axes: DMat3) -> Basis {
+    Basis {
+        x: single(axes.x_axis),
+        y: single(axes.y_axis),
+        z: single(axes.z_axis),
+        ..Basis::default()
+    }
+}
+
+fn pack_camera(camera: &scene::Camera, width: u32, height: u32) -> Camera {
+    let forward = (camera.look_at - camera.position).normalize();
+    let right = forward.cross(camera.up).normalize();
+    let down = forward.cross(right);
+    let half_height = (0.5 * camera.fov.to_radians()).tan();
+    let half_width = half_height * f64::from(width) / f64::from(height);
+    Camera {
+        forward: single(forward),
+        right: single(right * half_width),
+        down: single(down * half_height),
+        pixel: [2.0 / width as f32, 2.0 / height as f32],
+        ..Camera::default()
+    }
+}
+
+/// The pole is the basis's z axis; which way x and y point does not matter to any sampler.
+fn pack_pole(pole: Pole) -> Basis {
+    let axis = match pole {
+        Pole::Axis(axis) => axis.normalize(),
+        Pole::Receiver => DVec3::Z,
+    };
+    if axis == DVec3::Z {
+        return basis(DMat3::IDENTITY);
+    }
+    let (x, y) = axis.any_orthonormal_pair();
+    basis(DMat3::from_cols(x, y, axis))
+}
+
+/// The narrowest and the widest lobe that f32 angles tell apart from a mirror and from an even angle.
+const SPREAD_RANGE: (f64, f64) = (1e-5, 1e5);
+
+fn pack_material(material: &scene::Material, bound: ScatterBound) -> Material {
+    let spread = material.spread.clamp(SPREAD_RANGE.0, SPREAD_RANGE.1);
+    let right_angle = std::f64::consts::FRAC_PI_2;
+    let mass = match bound {
+        ScatterBound::Truncate => libm::erf(right_angle / (std::f64::consts::SQRT_2 * spread)),
+        ScatterBound::Clamp => 1.0,
+    };
+    let half_normal = std::f64::consts::FRAC_2_PI.sqrt() / (spread * mass);
+    Material {
+        albedo: single(material.albedo),
+        scatter: material.scatter.index(),
+        emission: single(material.emission),
+        survival: material.survival as f32,
+        spread: spread as f32,
+        lobe_mass: mass as f32,
+        lobe_scale: (half_normal / std::f64::consts::TAU) as f32,
+        _pad0: 0.0,
+    }
+}
+
+fn pack_spheres(scene: &Scene, eye: DVec3) -> (Vec<Sphere>, Vec<Lamp>) {
+    let mut lamps = Vec::new();
+    let mut spheres = Vec::with_capacity(scene.spheres.len());
+    for (index, sphere) in scene.spheres.iter().enumerate() {
+        let material = &scene.materials[sphere.material];
+        let center = single(sphere.center - eye);
+        let radius = sphere.radius as f32;
+        if material.emits() {
+            lamps.push(Lamp {
+                center,
+                radius,
+                emission: single(material.emission),
+                body: index as u32 + 1,
+                weight_radius: weight_radius(&scene.settings, sphere.radius),
+                ..Lamp::default()
+            });
+        }
+        spheres.push(Sphere {
+            center,
+            radius,
+            material: sphere.material as u32,
+            lamp: if material.emits() {
+                lamps.len() as u32
+            } else {
+                0
+            },
+            ..Sphere::default()
+        });
+    }
+    (spheres, lamps)
+}
+
+fn weight_radius(settings: &Settings, own: f64) -> f32 {
+    settings.light.weight_radius.unwrap_or(own) as f32
+}
+
+/// The boxes, unrotated ones first, and how many are rotated.
+fn pack_boxes(scene: &Scene, eye: DVec3) -> (Vec<Cuboid>, u32) {
+    let is_rotated = |shape: &scene::Cuboid| shape.rotation != DVec3::ZERO;
+    let first_id = scene.spheres.len() as u32 + 1;
+    let numbered = || scene.boxes.iter().zip(first_id..);
+    let straight = numbered().filter(|(shape, _)| !is_rotated(shape));
+    let rotated = numbered().filter(|(shape, _)| is_rotated(shape));
+    let pack = |(shape, id)| pack_box(shape, eye, id);
+    let boxes: Vec<_> = straight.chain(rotated).map(pack).collect();
+    let rotated = scene.boxes.iter().filter(|shape| is_rotated(shape)).count();
+    (boxes, rotated as u32)
+}
+
+fn pack_box(shape: &scene::Cuboid, eye: DVec3, id: u32) -> Cuboid {
+    let angle = DVec3::from_array(shape.rotation.to_array().map(f64::to_radians));
+    // Applied about x, then y, then z: the product stands in the opposite order.
+    let rotation = DMat3::from_rotation_z(angle.z)
+        * DMat3::from_rotation_y(angle.y)
+        * DMat3::from_rotation_x(angle.x);
+    Cuboid {
+        center: single(0.5 * (shape.min + shape.max) - eye),
+        material: shape.material as u32,
+        half_size: single(0.5 * (shape.max - shape.min)),
+        id,
+        axis_x: single(rotation.x_axis),
+        axis_y: single(rotation.y_axis),
+        axis_z: single(rotation.z_axis),
+        ..Cuboid::default()
+    }
+}

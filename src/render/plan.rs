@@ -1,0 +1,232 @@
+//! Which samples of which pixels each dispatch takes. The picture never depends on it: a pixel's
+//! samples are added in order, in runs that end at fixed indices.
+
+use crate::pack::{RUN_LENGTH, Rect};
+use std::ops::Range;
+use std::time::Duration;
+
+/// How long a dispatch should take.
+const TARGET: Duration = Duration::from_millis(150);
+/// Samples of the first dispatch, before anything is known of the scene's cost. A scene would have
+/// to be two hundred times as slow as a Cornell box on a software driver to make it take half a second.
+const FIRST_BUDGET: u64 = 32_768;
+/// From one dispatch to the next the plan grows at most by this factor: pixels differ in cost.
+const GROWTH: u64 = 4;
+/// Samples of a pixel that one dispatch takes where there is enough to do beside: long lanes keep
+/// the device full.
+const LONG: u64 = 64;
+/// Pixels that keep every lane of a small device busy.
+const WIDE: u64 = 4096;
+/// The most tallies that a dispatch brings back: 32 MiB of them.
+const MOST_TALLIES: u64 = 1 << 20;
+
+/// One dispatch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    pub rect: Rect,
+    pub first_sample: u64,
+    pub samples: u32,
+}
+
+impl Block {
+    /// Number of paths.
+    pub fn paths(&self) -> u64 {
+        self.rect.area() as u64 * u64::from(self.samples)
+    }
+}
+
+/// Hands out blocks until every pixel of a region has every sample of a range.
+///
+/// Samples advance in bands: within a band the region is covered once, from the top.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    region: Rect,
+    samples: Range<u64>,
+    /// Samples of the band in hand; empty before the first.
+    band: Range<u64>,
+    /// The pixel at which the next block starts, counted row by row in the region.
+    next_pixel: u64,
+    /// Samples that the next block may take.
+    budget: u64,
+    /// Blocks of exactly this many samples, whatever time they take.
+    fixed: bool,
+}
+
+impl Plan {
+    pub fn new(region: Rect, samples: Range<u64>) -> Self {
+        let band = samples.start..samples.start;
+        Self {
+            region,
+            samples,
+            band,
+            next_pixel: 0,
+            budget: FIRST_BUDGET,
+            fixed: false,
+        }
+    }
+
+    /// A plan whose blocks take at most `budget` samples (but at least one run of one pixel)
+    /// however fast they are: for tests that the split does not matter.
+    pub fn with_budget(region: Rect, samples: Range<u64>, budget: u64) -> Self {
+        Self {
+            budget: budget.max(1),
+            fixed: true,
+            ..Self::new(region, samples)
+        }
+    }
+
+    /// Learns how long a block took.
+    pub fn learn(&mut self, block: &Block, took: Duration) {
+        if self.fixed {
+            return;
+        }
+        let rate = block.paths() as f64 / took.as_secs_f64().max(1e-6);
+        let wanted = (rate * TARGET.as_secs_f64()) as u64;
+        self.budget = wanted.clamp(1, block.paths().saturating_mul(GROWTH)).max(1);
+    }
+
+    /// The next block, or nothing when all is done.
+    pub fn next_block(&mut self) -> Option<Block> {
+        if self.next_pixel == 0 {
+            self.open_band()?;
+        }
+        let samples = self.band.end - self.band.start;
+        let runs = samples.div_ceil(u64::from(RUN_LENGTH)).max(1) + 1;
+        let most = (self.budget / samples).clamp(1, MOST_TALLIES / runs);
+        let rect = self.take_pixels(most);
+        let block = Block {
+            rect,
+            first_sample: self.band.start,
+            samples: samples as u32,
+        };
+        if self.next_pixel == self.region.area() as u64 {
+            self.next_pixel = 0;
+        }
+        Some(block)
+    }
+
+    /// Chooses how many samples the next band takes: whole runs, more of them where the region is
+    /// small for the budget.
+    fn open_band(&mut self) -> Option<()> {
+        let start = self.band.end;
+        if start >= self.samples.end || self.region.area() == 0 {
+            return None;
+        }
+        let run = u64::from(RUN_LENGTH);
+        let pixels = (self.region.area() as u64).min(WIDE);
+        let affordable = self.budget / pixels;
+        let whole = self.budget / self.region.area() as u64;
+        let wanted = affordable.min(LONG).max(whole).clamp(run, 64 * LONG);
+        let end = (start / run + wanted / run) * run;
+        self.band = start..end.min(self.samples.end);
+        Some(())
+    }
+
+    /// A rectangle of at most `most` pixels from the next one on: whole rows where they fit, else
+    /// part of a row.
+    fn take_pixels(&mut self, most: u64) -> Rect {
+        let width = u64::from(self.region.width());
+        let (row, column) = (self.next_pixel / width, self.next_pixel % width);
+        let (wide, high) = if column == 0 && most >= width {
+            (
+                width,
+                (most / width).min(u64::from(self.region.height()) - row),
+            )
+        } else {
+            (most.min(width - column), 1)
+        };
+        self.next_pixel += wide * high;
+        let (x0, y0) = (self.region.x0 + column as u32, self.region.y0 + row as u32);
+        Rect {
+            x0,
+            y0,
+            x1: x0 + wide as u32,
+            y1: y0 + high as u32,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every sample of every pixel is taken once, in order, however the plan is driven.
+    fn covers(
+        mut plan: Plan,
+        region: Rect,
+        samples: Range<u64>,
+        took: impl Fn(&Block) -> Duration,
+    ) {
+        let mut next = vec![samples.start; region.area()];
+        while let Some(block) = plan.next_block() {
+            for y in block.rect.y0..block.rect.y1 {
+                for x in block.rect.x0..block.rect.x1 {
+                    let pixel = (y - region.y0) as usize * region.width() as usize
+                        + (x - region.x0) as usize;
+                    assert_eq!(next[pixel], block.first_sample, "pixel {x},{y}");
+                    next[pixel] += u64::from(block.samples);
+                    let end = next[pixel];
+                    assert!(
+                        end == samples.end || end.is_multiple_of(u64::from(RUN_LENGTH)),
+                        "band ends at {end}"
+                    );
+                }
+            }
+            plan.learn(&block, took(&block));
+        }
+        assert!(next.iter().all(|end| *end == samples.end));
+    }
+
+    #[test]
+    fn every_sample_is_taken_once_and_in_order() {
+        let region = Rect {
+            x0: 3,
+            y0: 5,
+            x1: 40,
+            y1: 29,
+        };
+        for samples in [
+            0..1,
+            0..64,
+            7..23,
+            5..1000,
+            u64::from(u32::MAX) - 9..u64::from(u32::MAX) + 40,
+        ] {
+            for budget in [1, 16, 17, 500, 100_000] {
+                covers(
+                    Plan::with_budget(region, samples.clone(), budget),
+                    region,
+                    samples.clone(),
+                    |_| TARGET,
+                );
+            }
+            for nanoseconds in [1, 100, 100_000] {
+                let took = |block: &Block| Duration::from_nanos(block.paths() * nanoseconds);
+                covers(
+                    Plan::new(region, samples.clone()),
+                    region,
+                    samples.clone(),
+                    took,
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_stay_near_the_target_once_the_rate_is_known() {
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 1024,
+            y1: 768,
+        };
+        let mut plan = Plan::new(region, 0..512);
+        let mut longest = Duration::ZERO;
+        while let Some(block) = plan.next_block() {
+            let took = Duration::from_nanos(block.paths() * 300);
+            longest = longest.max(took);
+            plan.learn(&block, took);
+        }
+        assert!(longest <= TARGET + TARGET / 10, "{longest:?}");
+    }
+}

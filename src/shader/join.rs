@@ -1,0 +1,172 @@
+//! Joins a kernel with the libraries it imports, each once, and remembers where every line came from.
+//!
+//! A file imports another with a comment line at its top: `// #import name`.
+
+use super::library::LIBRARY;
+use crate::error::{Error, Result};
+
+const IMPORT: &str = "// #import ";
+const GENERATED: &str = "constants";
+
+/// A kernel's text with the table that leads back to the files.
+#[derive(Clone, Debug)]
+pub struct Joined {
+    pub text: String,
+    kernel: String,
+    /// Name of each file and the line of the joined text that it starts at, counted from 1.
+    files: Vec<(String, usize)>,
+}
+
+impl Joined {
+    /// `file.wgsl:line` of a line of the joined text, both counted from 1.
+    pub fn place(&self, line: usize) -> String {
+        let file = self.files.iter().rev().find(|(_, start)| *start <= line);
+        match file {
+            Some((name, start)) => format!("{name}.wgsl:{}", line - start + 1),
+            None => format!("{}.wgsl:{line}", self.kernel),
+        }
+    }
+
+    /// Names of the files that were joined.
+    pub fn file_names(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// A fault's message: its place, or all files where the place is not known.
+    pub fn fault(&self, place: Option<String>, reason: &str) -> String {
+        let files = || self.file_names().collect::<Vec<_>>().join(", ");
+        match place {
+            Some(place) => format!("kernel {}: {place}: {reason}", self.kernel),
+            None => format!("kernel {} (files {}): {reason}", self.kernel, files()),
+        }
+    }
+}
+
+/// Joins `kernel` with what it imports, after the generated text `constants`.
+///
+/// # Errors
+/// [`Error::Internal`] for an import of a file that there is none of, or that imports itself.
+pub fn join(kernel: &str, constants: &str) -> Result<Joined> {
+    join_from(kernel, constants, LIBRARY)
+}
+
+/// [`join`] over any set of files.
+pub(crate) fn join_from(kernel: &str, constants: &str, library: &[(&str, &str)]) -> Result<Joined> {
+    let mut order = Vec::new();
+    collect(kernel, library, &mut Vec::new(), &mut order)?;
+    let mut joined = Joined {
+        text: String::new(),
+        kernel: kernel.into(),
+        files: Vec::new(),
+    };
+    let mut line = 1;
+    for (name, text) in std::iter::once((GENERATED, constants)).chain(order) {
+        joined.files.push((name.to_string(), line));
+        joined.text.push_str(text);
+        if !text.ends_with('\n') {
+            joined.text.push('\n');
+        }
+        line += text.lines().count();
+    }
+    Ok(joined)
+}
+
+/// Appends `name` after everything it imports. `open` is the chain of files that led here.
+fn collect<'a>(
+    name: &str,
+    library: &[(&'a str, &'a str)],
+    open: &mut Vec<&'a str>,
+    order: &mut Vec<(&'a str, &'a str)>,
+) -> Result<()> {
+    let Some(&(name, text)) = library.iter().find(|(known, _)| *known == name) else {
+        let by = open.last().unwrap_or(&"the program");
+        return Err(Error::Internal(format!(
+            "shader {by} imports {name}, which is not there"
+        )));
+    };
+    if order.iter().any(|(known, _)| *known == name) {
+        return Ok(());
+    }
+    if open.contains(&name) {
+        let chain = open.join(" -> ");
+        return Err(Error::Internal(format!(
+            "shaders import each other: {chain} -> {name}"
+        )));
+    }
+    open.push(name);
+    for import in text.lines().filter_map(|line| line.strip_prefix(IMPORT)) {
+        collect(import.trim(), library, open, order)?;
+    }
+    open.pop();
+    order.push((name, text));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_file_is_joined_once_and_lines_lead_back() {
+        let files = [
+            ("a", "// #import b\n// #import c\nfn a() {}\n"),
+            ("b", "// #import c\nfn b() {}"),
+            ("c", "fn c() {}\n"),
+        ];
+        let joined = join_from("a", "const X: u32 = 1u;\n", &files).unwrap();
+        assert_eq!(joined.text.matches("fn c()").count(), 1);
+        let line = joined
+            .text
+            .lines()
+            .position(|line| line == "fn b() {}")
+            .unwrap()
+            + 1;
+        assert_eq!(joined.place(line), "b.wgsl:2");
+        assert_eq!(joined.place(1), "constants.wgsl:1");
+    }
+
+    #[test]
+    fn circles_and_missing_files_are_refused() {
+        let circle = [("a", "// #import b\n"), ("b", "// #import a\n")];
+        assert!(
+            join_from("a", "", &circle)
+                .unwrap_err()
+                .to_string()
+                .contains("a -> b -> a")
+        );
+        let missing = [("a", "// #import b\n")];
+        assert!(
+            join_from("a", "", &missing)
+                .unwrap_err()
+                .to_string()
+                .contains("a imports b")
+        );
+    }
+
+    #[test]
+    fn faults_name_the_original_file_and_line() {
+        let files = [
+            ("a", "// #import b\nfn a() {}\n"),
+            ("b", "fn b() {}\n\nfn broken() { let x = ; }\n"),
+        ];
+        let joined = join_from("a", "const X: u32 = 1u;\n", &files).unwrap();
+        let fault = crate::shader::parse(&joined).unwrap_err().to_string();
+        assert!(fault.contains("b.wgsl:3"), "{fault}");
+    }
+
+    #[test]
+    fn validation_faults_name_the_original_file_and_line() {
+        let files = [
+            ("a", "// #import b\nfn a() {}\n"),
+            (
+                "b",
+                "fn b() {}\n\nfn broken() -> u32 {\n    let x = vec2<f32>(1.0) * vec3<f32>(1.0);\n    return 1u;\n}\n",
+            ),
+        ];
+        let joined = join_from("a", "const X: u32 = 1u;\n", &files).unwrap();
+        let outcome = crate::shader::parse(&joined)
+            .and_then(|module| crate::shader::validate(&joined, &module));
+        let fault = outcome.unwrap_err().to_string();
+        assert!(fault.contains("b.wgsl:4"), "{fault}");
+    }
+}
