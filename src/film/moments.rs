@@ -1,0 +1,199 @@
+//! The first two moments of every pixel, summed in f64.
+
+use super::{Features, Picture, Record};
+use crate::pack::{Rect, Tally};
+
+/// What has been measured of a rectangle of pixels so far.
+///
+/// Every field is plain data: a checkpoint stores them as they are, and a film rebuilt from them
+/// goes on bit for bit. Pixels are row-major within the region, channels are R, G, B.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    pub region: Rect,
+    /// Sum of radiance.
+    pub sums: Vec<[f64; 3]>,
+    /// Sum of squared radiance.
+    pub squares: Vec<[f64; 3]>,
+    /// Samples taken.
+    pub counts: Vec<u64>,
+    /// Paths traced: the sum of `counts`.
+    pub paths: u64,
+    /// Rays traced, shadow rays included.
+    pub rays: u64,
+    /// Samples whose radiance was not finite; they count as black.
+    pub non_finite: u64,
+    pub first_non_finite: Option<NonFinite>,
+}
+
+/// Where a sample was not finite. The first of several is that of the smallest index, then row,
+/// then column, so that it does not depend on how the work was split.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NonFinite {
+    pub sample: u64,
+    /// Row in the whole image.
+    pub y: u32,
+    /// Column in the whole image.
+    pub x: u32,
+}
+
+impl Film {
+    /// A film without samples.
+    pub fn new(region: Rect) -> Film {
+        let pixels = region.area();
+        Film {
+            region,
+            sums: vec![[0.0; 3]; pixels],
+            squares: vec![[0.0; 3]; pixels],
+            counts: vec![0; pixels],
+            paths: 0,
+            rays: 0,
+            non_finite: 0,
+            first_non_finite: None,
+        }
+    }
+
+    /// Adds one run of `samples` samples, the first of them number `first_sample`, to a pixel.
+    ///
+    /// Sums in f64 are not associative: the same runs in the same order give the same film.
+    pub fn add(&mut self, pixel: usize, first_sample: u64, samples: u32, tally: &Tally) {
+        let n = f64::from(samples);
+        for channel in 0..3 {
+            let mean = f64::from(tally.mean[channel]);
+            self.sums[pixel][channel] += n * mean;
+            self.squares[pixel][channel] += f64::from(tally.squares[channel]) + n * mean * mean;
+        }
+        self.counts[pixel] += u64::from(samples);
+        self.paths += u64::from(samples);
+        self.rays += u64::from(tally.rays);
+        self.add_non_finite(pixel, first_sample, tally.non_finite);
+    }
+
+    /// `packed` is [`Tally::non_finite`]: how many below, the place of the first above.
+    fn add_non_finite(&mut self, pixel: usize, first_sample: u64, packed: u32) {
+        let count = packed & 0xffff;
+        if count == 0 {
+            return;
+        }
+        self.non_finite += u64::from(count);
+        // Both fit: a region's width and height are u32.
+        let width = self.region.width() as usize;
+        let found = NonFinite {
+            sample: first_sample + u64::from(packed >> 16),
+            y: self.region.y0 + (pixel / width) as u32,
+            x: self.region.x0 + (pixel % width) as u32,
+        };
+        self.first_non_finite = Some(self.first_non_finite.map_or(found, |old| old.min(found)));
+    }
+
+    /// Mean radiance of a pixel; black before its first sample.
+    pub fn mean(&self, pixel: usize) -> [f64; 3] {
+        match self.counts[pixel] {
+            0 => [0.0; 3],
+            count => self.sums[pixel].map(|sum| sum / count as f64),
+        }
+    }
+
+    /// Sample variance of one path's radiance, (S2 - S^2 / n) / (n - 1); 0 below two samples.
+    pub fn variance(&self, pixel: usize) -> [f64; 3] {
+        let count = self.counts[pixel];
+        if count < 2 {
+            return [0.0; 3];
+        }
+        let n = count as f64;
+        std::array::from_fn(|channel| {
+            let (sum, squares) = (self.sums[pixel][channel], self.squares[pixel][channel]);
+            // Equal samples leave a rounding error here, which may be below zero.
+            ((squares - sum * sum / n) / (n - 1.0)).max(0.0)
+        })
+    }
+
+    /// Mean over the pixels of their means.
+    pub fn picture_mean(&self) -> [f64; 3] {
+        self.over_pixels().mean()
+    }
+
+    /// Standard error of [`Film::picture_mean`], taking the pixels as independent.
+    pub fn standard_error(&self) -> [f64; 3] {
+        self.over_pixels().standard_error()
+    }
+
+    fn over_pixels(&self) -> PictureMean {
+        let mut mean = PictureMean::default();
+        for (pixel, &count) in self.counts.iter().enumerate() {
+            mean.add(self.mean(pixel), self.variance(pixel), count);
+        }
+        mean
+    }
+
+    /// Writes what the film knows into a record: size, totals, mean and its standard error.
+    pub fn describe(&self, record: &mut Record) {
+        record.width = self.region.width();
+        record.height = self.region.height();
+        record.paths = self.paths;
+        record.rays = self.rays;
+        record.non_finite = self.non_finite;
+        let mean = self.over_pixels();
+        record.mean = mean.mean();
+        record.standard_error = mean.standard_error();
+    }
+
+    /// The picture as it stands, with the record completed by [`Film::describe`].
+    pub fn picture(
+        &self,
+        mut record: Record,
+        features: Option<Features>,
+        scene_text: Option<String>,
+    ) -> Picture {
+        self.describe(&mut record);
+        let pixels = 0..self.counts.len();
+        Picture {
+            width: self.region.width(),
+            height: self.region.height(),
+            mean: pixels
+                .clone()
+                .map(|pixel| self.mean(pixel).map(narrow))
+                .collect(),
+            variance: pixels
+                .map(|pixel| self.variance(pixel).map(narrow))
+                .collect(),
+            samples: self.counts.iter().map(|&count| count as f32).collect(),
+            features,
+            record,
+            scene_text,
+        }
+    }
+}
+
+/// The mean of a picture and its standard error, pixel after pixel.
+#[derive(Default)]
+pub(super) struct PictureMean {
+    sums: [f64; 3],
+    /// Sum of the variances of the pixels' means.
+    variances: [f64; 3],
+    pixels: u64,
+}
+
+impl PictureMean {
+    /// Adds a pixel's mean and the variance of one of its `count` samples.
+    pub(super) fn add(&mut self, mean: [f64; 3], variance: [f64; 3], count: u64) {
+        for channel in 0..3 {
+            self.sums[channel] += mean[channel];
+            self.variances[channel] += variance[channel] / count.max(1) as f64;
+        }
+        self.pixels += 1;
+    }
+
+    pub(super) fn mean(&self) -> [f64; 3] {
+        self.sums.map(|sum| sum / self.pixels.max(1) as f64)
+    }
+
+    pub(super) fn standard_error(&self) -> [f64; 3] {
+        self.variances
+            .map(|sum| sum.sqrt() / self.pixels.max(1) as f64)
+    }
+}
+
+/// Nearest f32. A variance may be finite in f64 and too large for f32; files hold no infinity.
+pub(super) fn narrow(value: f64) -> f32 {
+    value.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
+}

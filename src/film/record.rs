@@ -1,0 +1,114 @@
+//! The run record: everything needed to know what a picture is, and to render it again.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// What was rendered, how, on what and with which outcome. Travels inside every image as JSON.
+///
+/// Fields that a later version adds are ignored when read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Version of lampray.
+    pub version: String,
+    /// The scene's path as it was given, or another name for it.
+    pub scene: String,
+    pub scene_hash: String,
+    pub shader_hash: String,
+    pub preset: String,
+    /// Every knob with its value, by path, as [`crate::scene::Scene::knobs`] has them.
+    pub knobs: Map<String, Value>,
+    pub device: Device,
+    /// Every device of a picture that was merged from several; absent for one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub devices: Vec<Device>,
+    /// Pixels of this picture.
+    pub width: u32,
+    /// Pixels of this picture.
+    pub height: u32,
+    /// x0, y0, x1, y1: the part of `image.width` x `image.height` that this picture holds, the
+    /// last two exclusive; absent for all of it.
+    #[serde(default)]
+    pub crop: Option<[u32; 4]>,
+    /// Samples a pixel that were taken.
+    pub samples: u64,
+    /// Which: from the first on, up to and without the second.
+    pub sample_range: [u64; 2],
+    /// All ranges, where they leave gaps in `sample_range`; absent otherwise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sample_ranges: Vec<[u64; 2]>,
+    pub seed: u64,
+    /// Whether all samples that were asked for have been taken.
+    pub complete: bool,
+    pub biased: bool,
+    pub seconds: Seconds,
+    pub paths: u64,
+    pub rays: u64,
+    pub non_finite: u64,
+    /// Mean radiance over the picture.
+    pub mean: [f64; 3],
+    /// Standard error of `mean`.
+    pub standard_error: [f64; 3],
+    /// Files that were written.
+    pub outputs: Vec<String>,
+}
+
+impl Record {
+    /// The ranges of samples in the picture, in order.
+    pub fn ranges(&self) -> Vec<[u64; 2]> {
+        match self.sample_ranges.as_slice() {
+            [] => vec![self.sample_range],
+            ranges => ranges.to_vec(),
+        }
+    }
+
+    /// One line of JSON.
+    pub fn to_json(&self) -> String {
+        // Keys are strings and no value can fail to be written, so there is no error to report.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+/// What rendered.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Device {
+    pub kind: DeviceKind,
+    pub name: String,
+    pub driver: String,
+    pub backend: String,
+    /// Address on the PCI bus, empty where there is none.
+    pub pci: String,
+}
+
+impl Device {
+    /// Whether two devices give the same pixels for the same samples: same kind, name, driver
+    /// and backend, in whichever slot.
+    pub fn is_like(&self, other: &Device) -> bool {
+        let pci = other.pci.clone();
+        Device {
+            pci,
+            ..self.clone()
+        } == *other
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DeviceKind {
+    /// A GPU.
+    Hardware,
+    /// Vulkan on the CPU.
+    Software,
+    /// The built-in CPU renderer.
+    Cpu,
+}
+
+/// Wall-clock times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// From the start to the first dispatch: device, compilation, buffers.
+    pub setup: f64,
+    /// Tracing alone.
+    pub render: f64,
+    /// All of it, writing of files excepted where the record is inside them.
+    pub total: f64,
+}

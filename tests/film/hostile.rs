@@ -1,0 +1,214 @@
+//! Files that are cut short, damaged or made to do harm: an error each time, never a panic.
+
+use super::sample::{Folder, Random, picture, write};
+use lampray::Error;
+use lampray::film::{read_exr, read_record};
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+/// Reads in every way there is and says whether the file was accepted, by each.
+fn read(path: &Path) -> [bool; 2] {
+    let whole = read_exr(path).map(drop);
+    let record = read_record(path).map(drop);
+    [whole, record].map(|outcome| match outcome {
+        Ok(()) => true,
+        Err(Error::Data { reason, .. }) => {
+            assert!(!reason.is_empty());
+            false
+        }
+        Err(error) => panic!("{error:?}"),
+    })
+}
+
+#[test]
+fn files_that_are_cut_short() {
+    let folder = Folder::new();
+    let cut = folder.join("cut");
+    for name in ["a.exr", "a.png"] {
+        write(&picture(0..4), &folder.join(name));
+        let bytes = fs::read(folder.join(name)).unwrap();
+        for part in 0..50 {
+            fs::write(&cut, &bytes[..bytes.len() * part / 50]).unwrap();
+            assert!(!read(&cut)[0], "{part}/50 of {name} is taken for a picture");
+        }
+        fs::write(&cut, &bytes).unwrap();
+        assert_eq!(read(&cut), [name == "a.exr", true]);
+    }
+}
+
+#[test]
+fn files_with_flipped_bits() {
+    let folder = Folder::new();
+    let damaged = folder.join("damaged");
+    let mut random = Random(1);
+    for name in ["a.exr", "a.png"] {
+        write(&picture(0..4), &folder.join(name));
+        let bytes = fs::read(folder.join(name)).unwrap();
+        let mut refused = 0;
+        for round in 0..3000 {
+            let mut bytes = bytes.clone();
+            // The header is small and does most; half of the damage is done there.
+            let end = if round % 2 == 0 { bytes.len() } else { 3000 };
+            for _ in 0..1 + random.below(3) {
+                bytes[random.below(end)] ^= 1 << random.below(8);
+            }
+            fs::write(&damaged, &bytes).unwrap();
+            refused += usize::from(!read(&damaged)[1]);
+        }
+        assert!(
+            refused > 500,
+            "{name}: only {refused} of 3000 damaged files were refused"
+        );
+    }
+}
+
+#[test]
+fn inputs_that_are_something_else() {
+    let folder = Folder::new();
+    for path in [folder.join("missing.exr"), folder.path().to_path_buf()] {
+        assert!(matches!(read_exr(&path), Err(Error::Input { .. })));
+        assert!(matches!(read_record(&path), Err(Error::Input { .. })));
+    }
+    for bytes in [&b""[..], b"v", b"version = 1\n", b"\x89PNG", &[0; 4096]] {
+        fs::write(folder.join("a.exr"), bytes).unwrap();
+        assert_eq!(read(&folder.join("a.exr")), [false, false]);
+    }
+}
+
+fn refusal(path: &Path) -> String {
+    match read_record(path) {
+        Err(Error::Data { reason, .. }) => reason,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn images_of_other_programs() {
+    let folder = Folder::new();
+    let exr = folder.join("other.exr");
+    exr::prelude::write_rgb_file(&exr, 4, 4, |x, y| (x as f32, y as f32, 0.0_f32)).unwrap();
+    let reason = refusal(&exr);
+    assert!(reason.contains("not written by lampray"), "{reason}");
+    assert!(matches!(read_exr(&exr), Err(Error::Data { .. })));
+
+    let png = folder.join("other.png");
+    let file = fs::File::create(&png).unwrap();
+    let mut writer = png::Encoder::new(file, 1, 1).write_header().unwrap();
+    writer.write_image_data(&[7]).unwrap();
+    drop(writer);
+    assert!(refusal(&png).contains("not written by lampray"));
+}
+
+fn attribute(name: &str, kind: &str, value: &[u8]) -> Vec<u8> {
+    let mut bytes = [name.as_bytes(), b"\0", kind.as_bytes(), b"\0"].concat();
+    bytes.extend((value.len() as u32).to_le_bytes());
+    bytes.extend(value);
+    bytes
+}
+
+/// A header of one float32 channel after another, with this record, and nothing behind it.
+fn header(width: i32, height: i32, attributes: &[Vec<u8>]) -> Vec<u8> {
+    let mut channels = Vec::new();
+    for name in [
+        "B",
+        "G",
+        "R",
+        "samples",
+        "variance.B",
+        "variance.G",
+        "variance.R",
+    ] {
+        channels.extend([name.as_bytes(), b"\0\x02\0\0\0\0\0\0\0\x01\0\0\0\x01\0\0\0"].concat());
+    }
+    channels.push(0);
+    let window: Vec<u8> = [0, 0, width - 1, height - 1]
+        .iter()
+        .flat_map(|edge: &i32| edge.to_le_bytes())
+        .collect();
+    let mut bytes = b"\x76\x2f\x31\x01\x02\0\0\0".to_vec();
+    bytes.extend(attribute("channels", "chlist", &channels));
+    bytes.extend(attribute("compression", "compression", &[3]));
+    bytes.extend(attribute("dataWindow", "box2i", &window));
+    bytes.extend(attributes.concat());
+    bytes.push(0);
+    bytes
+}
+
+#[test]
+fn sizes_that_are_only_announced() {
+    let folder = Folder::new();
+    let path = folder.join("a.exr");
+    let mut record = picture(0..4).record;
+    for (width, height) in [
+        (16384, 16384),
+        (32768, 8192),
+        (32768, 32768),
+        (i32::MAX, 1),
+        (0, 0),
+    ] {
+        (record.width, record.height) = (width as u32, height as u32);
+        let record = attribute("lampray", "string", record.to_json().as_bytes());
+        fs::write(&path, header(width, height, &[record])).unwrap();
+        assert!(
+            matches!(read_exr(&path), Err(Error::Data { .. })),
+            "{width} x {height}"
+        );
+    }
+    // A header of the same make is read.
+    (record.width, record.height) = (8, 8);
+    let attributes = [attribute("lampray", "string", record.to_json().as_bytes())];
+    fs::write(&path, header(8, 8, &attributes)).unwrap();
+    assert_eq!(read_record(&path).unwrap().0, record);
+}
+
+#[test]
+fn texts_that_unpack_without_end() {
+    let folder = Folder::new();
+    let json = picture(0..4).record.to_json();
+    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+    for _ in 0..256 {
+        encoder.write_all(&[b'#'; 1 << 20]).unwrap();
+    }
+    let bomb = encoder.finish().unwrap();
+    assert!(bomb.len() < 1 << 20);
+
+    let record = attribute("lampray", "string", json.as_bytes());
+    let scene = attribute("lampray_scene", "zlib", &bomb);
+    fs::write(folder.join("bomb.exr"), header(8, 8, &[record, scene])).unwrap();
+    assert!(refusal(&folder.join("bomb.exr")).contains("larger than"));
+
+    for keyword in ["lampray", "lampray.scene"] {
+        let file = fs::File::create(folder.join("bomb.png")).unwrap();
+        let mut writer = png::Encoder::new(file, 1, 1).write_header().unwrap();
+        let text = [keyword.as_bytes(), b"\0\x01\0\0\0", &bomb].concat();
+        writer.write_chunk(png::chunk::iTXt, &text).unwrap();
+        drop(writer);
+        assert!(refusal(&folder.join("bomb.png")).contains("larger than"));
+    }
+}
+
+#[test]
+fn records_that_are_not_records() {
+    let folder = Folder::new();
+    let good = picture(0..4).record.to_json();
+    let deep = "[".repeat(100_000);
+    let swapped = good.replace("\"sample_range\":[0,4]", "\"sample_range\":[4,0]");
+    assert_ne!(swapped, good);
+    for json in [
+        "",
+        "{}",
+        "null",
+        "\u{0}",
+        &deep,
+        &swapped,
+        &good[..good.len() - 1],
+    ] {
+        let record = attribute("lampray", "string", json.as_bytes());
+        fs::write(folder.join("a.exr"), header(8, 8, &[record])).unwrap();
+        assert!(matches!(
+            read_record(folder.join("a.exr")),
+            Err(Error::Data { .. })
+        ));
+    }
+}
