@@ -1,11 +1,130 @@
-use super::{Output, Result};
+use super::{Output, Result, note, print};
+use crate::knobs::{Choice, short};
+use crate::scene::{Assignment, Finding, Scene};
 use clap::Args;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
+/// Check a scene without rendering it
+///
+/// Prints what the scene holds. Errors, all of a file at once, and warnings of what is legal but
+/// suspect go to stderr with line, column and remedy.
 #[derive(Args)]
-pub(crate) struct Command {}
+#[command(after_help = "Example:\n  lampray check scenes/cornell.toml --set render.preset=paper")]
+pub(crate) struct Command {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Set a knob over what the scene says; may be given many times
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    assignments: Vec<String>,
+}
 
 impl Command {
-    pub(crate) fn run(self, _output: Output) -> Result<()> {
-        Ok(())
+    pub(crate) fn run(self, output: Output) -> Result<()> {
+        let parse = |text: &String| Assignment::parse(text);
+        let assignments: Vec<_> = self.assignments.iter().map(parse).collect::<Result<_>>()?;
+        let scene = match load(&self.scene, &assignments) {
+            Ok(scene) => scene,
+            Err((error, findings)) => {
+                if output.json {
+                    print(&failed(&self.scene, &error, &findings))?;
+                }
+                return Err(error);
+            }
+        };
+        let warnings = scene.warnings();
+        if !output.quiet {
+            for warning in &warnings {
+                note(&warning.text);
+            }
+        }
+        print(&if output.json {
+            passed(&scene, &warnings)
+        } else {
+            summary(&scene, warnings.len())
+        })
     }
+}
+
+/// The scene, or the error with its parts where it has some.
+fn load(
+    path: &Path,
+    assignments: &[Assignment],
+) -> std::result::Result<Scene, (crate::Error, Vec<Finding>)> {
+    let text = Scene::read_text(path).map_err(|error| (error, Vec::new()))?;
+    Scene::inspect(&path.to_string_lossy(), &text, assignments).map_err(|mistakes| {
+        let findings = mistakes.findings.clone();
+        (mistakes.into(), findings)
+    })
+}
+
+fn failed(scene: &Path, error: &crate::Error, findings: &[Finding]) -> String {
+    let errors: Vec<Value> = if findings.is_empty() {
+        vec![json!({ "message": error.to_string() })]
+    } else {
+        findings.iter().map(Finding::to_json).collect()
+    };
+    let answer = json!({
+        "scene": scene.to_string_lossy(),
+        "ok": false,
+        "errors": errors,
+        "warnings": [],
+    });
+    format!("{answer:#}\n")
+}
+
+fn passed(scene: &Scene, warnings: &[Finding]) -> String {
+    let warnings: Vec<_> = warnings.iter().map(Finding::to_json).collect();
+    let answer = json!({
+        "scene": scene.source.name,
+        "ok": true,
+        "errors": [],
+        "warnings": warnings,
+        "width": scene.settings.image.width,
+        "height": scene.settings.image.height,
+        "samples": scene.settings.render.samples,
+        "max_bounces": scene.settings.render.max_bounces,
+        "materials": scene.materials.len(),
+        "spheres": scene.spheres.len(),
+        "boxes": scene.boxes.len(),
+        "lamps": scene.lamps().count(),
+        "preset": scene.settings.preset.name(),
+        "biased": scene.settings.biased(),
+        "biases": scene.settings.biases(),
+        "knobs": scene.knobs,
+    });
+    format!("{answer:#}\n")
+}
+
+fn summary(scene: &Scene, warnings: usize) -> String {
+    let settings = &scene.settings;
+    let biased = match settings.biases().as_slice() {
+        [] => "unbiased".into(),
+        causes => format!("biased by {}", causes.join(", ")),
+    };
+    let warned = match warnings {
+        0 => String::new(),
+        count => format!(", {}", counted(count, "warning", "warnings")),
+    };
+    format!(
+        "{}: ok{warned}\n  picture  {} x {} pixels, {}, {}\n  scene    {}, {}, {}, {}\n  preset   {}, {biased}\n",
+        short(&scene.source.name),
+        settings.image.width,
+        settings.image.height,
+        counted(
+            settings.render.samples as usize,
+            "path a pixel",
+            "paths a pixel"
+        ),
+        counted(settings.render.max_bounces as usize, "bounce", "bounces"),
+        counted(scene.spheres.len(), "sphere", "spheres"),
+        counted(scene.boxes.len(), "box", "boxes"),
+        counted(scene.lamps().count(), "lamp", "lamps"),
+        counted(scene.materials.len(), "material", "materials"),
+        settings.preset,
+    )
+}
+
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }

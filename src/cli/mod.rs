@@ -6,6 +6,7 @@ mod merge;
 
 use crate::error::{Error, Result};
 use clap::{Args, Parser, Subcommand};
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A headless path tracer for studying how light is sampled.
@@ -47,10 +48,34 @@ pub fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("lampray: {error}");
+            match &error {
+                // It is text of many lines already, each mistake with its place.
+                Error::Scene(page) => note(page),
+                other => note(&format!("lampray: {other}")),
+            }
             ExitCode::from(code(&error))
         }
     }
+}
+
+/// Puts data on stdout. A reader that has gone, such as `head`, is no error.
+pub(crate) fn print(text: &str) -> Result<()> {
+    let mut stdout = io::stdout().lock();
+    let written = stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush());
+    match written {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Write {
+            path: "standard output".into(),
+            source: error,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Says something on stderr, if anybody listens there.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "{}", text.trim_end());
 }
 
 /// The exit code of each kind of error, as the README lists them.

@@ -1,6 +1,8 @@
 //! The sampling and picture knobs as one typed value.
 
 use super::choice::*;
+use super::find::find;
+use super::kind::Value;
 use glam::DVec3;
 
 /// Everything that decides how a scene is sampled, beside the scene itself.
@@ -78,16 +80,94 @@ pub struct Interruption {
 }
 
 impl Settings {
+    /// The settings of a preset, every other knob at its default.
+    pub fn of(preset: Preset) -> Self {
+        Self::gather(preset, |path| {
+            let knob = find(path).and_then(|target| target.knob.value(preset));
+            knob.cloned().unwrap_or(Value::Off)
+        })
+    }
+
+    /// The settings made of the values that a lookup by path gives.
+    pub fn gather(preset: Preset, value: impl Fn(&str) -> Value) -> Self {
+        let whole = |path: &str| u32::try_from(value(path).integer()).unwrap_or(u32::MAX);
+        Self {
+            preset,
+            image: Image {
+                width: whole("image.width"),
+                height: whole("image.height"),
+                filter: choice(&value("image.filter")),
+                exposure: value("image.exposure").number(),
+                encoding: choice(&value("image.encoding")),
+            },
+            render: Render {
+                samples: value("render.samples").integer(),
+                seed: value("render.seed").integer(),
+                max_bounces: whole("render.max_bounces"),
+                clamp: value("render.clamp").optional(),
+            },
+            light: Light {
+                sampler: choice(&value("light.sampler")),
+                weight: choice(&value("light.weight")),
+                weight_radius: value("light.weight_radius").optional(),
+                pole: pole(&value("light.pole")),
+                strategy: choice(&value("light.strategy")),
+                direct: choice(&value("light.direct")),
+            },
+            scatter: ScatterSettings {
+                diffuse: choice(&value("scatter.diffuse")),
+                bound: choice(&value("scatter.bound")),
+            },
+            interruption: Interruption {
+                rule: choice(&value("interruption.rule")),
+                weight: choice(&value("interruption.weight")),
+                start: whole("interruption.start"),
+                order: choice(&value("interruption.order")),
+            },
+        }
+    }
+
     /// Whether these knobs make the expected picture differ from the light transport they stand for.
-    ///
-    /// True for Lambert direct light, the solid-angle weight, literal interruption with any rule,
-    /// and either clamp: of radiance, or of the directional angle.
     pub fn biased(&self) -> bool {
-        self.light.direct == LightDirect::Lambert
-            || self.light.weight == LightWeight::SolidAngle
-            || (self.interruption.weight == InterruptionWeight::Literal
-                && self.interruption.rule != InterruptionRule::None)
-            || self.render.clamp.is_some()
-            || self.scatter.bound == ScatterBound::Clamp
+        !self.biases().is_empty()
+    }
+
+    /// The knobs that make it differ, with their values.
+    ///
+    /// They are Lambert direct light, the solid-angle weight, literal interruption with any rule,
+    /// and either clamp: of radiance, or of the directional angle.
+    pub fn biases(&self) -> Vec<&'static str> {
+        let literal = self.interruption.weight == InterruptionWeight::Literal
+            && self.interruption.rule != InterruptionRule::None;
+        let causes = [
+            (
+                self.light.direct == LightDirect::Lambert,
+                "light.direct = lambert",
+            ),
+            (
+                self.light.weight == LightWeight::SolidAngle,
+                "light.weight = solid-angle",
+            ),
+            (literal, "interruption.weight = literal"),
+            (self.render.clamp.is_some(), "render.clamp"),
+            (
+                self.scatter.bound == ScatterBound::Clamp,
+                "scatter.bound = clamp",
+            ),
+        ];
+        let in_force = causes.into_iter().filter(|(holds, _)| *holds);
+        in_force.map(|(_, cause)| cause).collect()
+    }
+}
+
+/// The choice with the name that a checked value holds.
+pub(crate) fn choice<C: Choice>(value: &Value) -> C {
+    C::from_name(value.text()).expect("the table of knobs lists the names of this choice")
+}
+
+fn pole(value: &Value) -> Pole {
+    match value {
+        Value::Text(_) => Pole::Receiver,
+        axis => Pole::Axis(axis.triple()),
     }
 }

@@ -1,4 +1,24 @@
 //! The scene: what stands where, what it is made of, and how it is to be sampled.
+//!
+//! A file goes through `load` (bytes to text), `read` (TOML to a draft of what was written),
+//! `assign` (the command line over it) and `build` (defaults, presets, checks). Whatever is wrong on
+//! the way is gathered in `faults` and said at once. `lint` looks at a finished scene.
+
+mod assign;
+mod build;
+mod draft;
+mod faults;
+mod finding;
+mod lint;
+mod load;
+mod read;
+mod solid;
+
+pub use assign::Assignment;
+pub use faults::Mistakes;
+pub use finding::Finding;
+pub use load::MOST_BYTES;
+pub use read::MOST_PRIMITIVES;
 
 use crate::knobs::{Scatter, Settings};
 use glam::DVec3;

@@ -1,0 +1,111 @@
+//! Finding a knob by its path, and the nearest name to one that does not exist.
+
+use super::table::{KNOBS, Knob};
+
+/// Tables of the scene file with one entry a material, sphere or box.
+pub const REPEATED: [&str; 3] = ["materials", "spheres", "boxes"];
+
+/// A knob, and which material, sphere or box it belongs to.
+#[derive(Clone, Copy, Debug)]
+pub struct Target<'a> {
+    pub knob: &'static Knob,
+    /// Name of the material, or number of the sphere or box, as written.
+    pub item: Option<&'a str>,
+}
+
+/// The knob that a path names: `light.sampler`, `materials.white.albedo`, `spheres.*.radius`.
+pub fn find(path: &str) -> Option<Target<'_>> {
+    let (section, rest) = path.split_once('.')?;
+    if !REPEATED.contains(&section) {
+        let knob = KNOBS.iter().find(|knob| knob.path == path)?;
+        return Some(Target { knob, item: None });
+    }
+    // A material's name may hold dots, a key never does.
+    let (item, key) = rest.rsplit_once('.')?;
+    let knob = in_section(section).find(|knob| knob.key() == key)?;
+    let item = Some(item);
+    Some(Target { knob, item })
+}
+
+/// The knobs of one table of the scene file.
+pub fn in_section(section: &str) -> impl Iterator<Item = &'static Knob> {
+    KNOBS.iter().filter(move |knob| knob.section() == section)
+}
+
+/// The tables of the scene file, in order.
+pub fn sections() -> Vec<&'static str> {
+    let mut sections: Vec<_> = KNOBS.iter().map(Knob::section).collect();
+    sections.dedup();
+    sections
+}
+
+/// Why no knob has this path, with the nearest that there are.
+pub fn unknown(path: &str) -> String {
+    let generic = generic(path);
+    let near = nearest(&generic, KNOBS.iter().map(|knob| knob.path));
+    let near = near.or_else(|| {
+        let key = path.rsplit_once('.').map_or(path, |(_, key)| key);
+        let same_key = |knob: &&Knob| knob.key() == key;
+        KNOBS.iter().find(same_key).map(|knob| knob.path)
+    });
+    let near = match near {
+        // Keep the name that was written: `materials.white.albdo` is near `materials.white.albedo`.
+        Some(near) => format!("did you mean `{}`?", specific(near, path)),
+        None => "`lampray knobs` lists them all".into(),
+    };
+    format!("there is no knob `{}`; {near}", short(path))
+}
+
+/// The path with the item's name replaced by `*`.
+fn generic(path: &str) -> String {
+    let parts = path
+        .split_once('.')
+        .and_then(|(section, rest)| rest.rsplit_once('.').map(|(_, key)| (section, key)));
+    match parts {
+        Some((section, key)) => format!("{section}.*.{key}"),
+        None => path.into(),
+    }
+}
+
+/// A knob's path with `*` replaced by the item that another path names, if it names one.
+fn specific(known: &str, path: &str) -> String {
+    let item = path
+        .split_once('.')
+        .and_then(|(_, rest)| rest.rsplit_once('.'));
+    match item {
+        Some((item, _)) => known.replace('*', &short(item)),
+        None => known.into(),
+    }
+}
+
+/// The name nearest to a word that is none of them, if any is near enough to be meant.
+pub fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word = word.to_lowercase().replace(' ', "_");
+    let length = word.chars().count();
+    // Comparing takes length squared; nobody mistypes a name this long.
+    if length > 100 {
+        return None;
+    }
+    let distance = |name: &'a str| {
+        (
+            strsim::damerau_levenshtein(&word, &name.to_lowercase()),
+            name,
+        )
+    };
+    let near = names.into_iter().filter(|name| name.len() <= 400);
+    let (distance, name) = near.map(distance).min_by_key(|(distance, _)| *distance)?;
+    let limit = (length.max(name.chars().count()) / 3).max(1);
+    let begins = length >= 3 && name.to_lowercase().starts_with(&word);
+    (distance <= limit || begins).then_some(name)
+}
+
+/// A user's own words, cut to a length that fits a message, on one line.
+pub fn short(word: &str) -> String {
+    const MOST: usize = 60;
+    let clean = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let mut cut: String = word.chars().take(MOST).map(clean).collect();
+    if word.chars().nth(MOST).is_some() {
+        cut.push('…');
+    }
+    cut
+}

@@ -1,0 +1,139 @@
+//! Values from the command line, laid over those of the scene file.
+
+use super::draft::{Draft, Entry, Group};
+use super::faults::{Faults, Origin};
+use crate::error::{Error, Result};
+use crate::knobs::{Kind, Target, Value, find, nearest, short, unknown};
+use toml::Spanned;
+use toml::de::DeValue;
+
+/// A knob that the command line or a record sets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    /// The knob's path, with names and numbers: `materials.white.albedo`.
+    pub path: String,
+    /// TOML, or a bare word.
+    pub value: String,
+    /// What the user typed, for messages: `--set light.sampler=cone`, `--width 64`.
+    pub flag: String,
+}
+
+impl Assignment {
+    /// An assignment by a flag of its own, such as `--width 64`.
+    pub fn new(path: impl Into<String>, value: impl Into<String>, flag: impl Into<String>) -> Self {
+        Self {
+            path: path.into(),
+            value: value.into(),
+            flag: flag.into(),
+        }
+    }
+
+    /// Reads the `PATH=VALUE` of `--set`.
+    pub fn parse(text: &str) -> Result<Self> {
+        let Some((path, value)) = text.split_once('=') else {
+            let message = format!(
+                "--set {}: write PATH=VALUE, for example --set light.sampler=cone",
+                short(text)
+            );
+            return Err(Error::Knob(message));
+        };
+        let flag = format!("--set {}", short(text));
+        Ok(Self::new(path.trim(), value.trim(), flag))
+    }
+
+    /// A knob as a record holds it; null turns an optional number off.
+    pub fn from_record(path: &str, value: &serde_json::Value) -> Self {
+        let value = match value {
+            serde_json::Value::Null => "off".into(),
+            // JSON's own notation for text, numbers and lists of numbers is TOML too.
+            other => other.to_string(),
+        };
+        let flag = format!("the record's {} = {}", short(path), short(&value));
+        Self::new(path, value, flag)
+    }
+}
+
+/// Lays the assignments over the draft, in order: the last one for a path holds.
+pub(crate) fn apply(assignments: &[Assignment], draft: &mut Draft, faults: &mut Faults<'_>) {
+    for (number, assignment) in assignments.iter().enumerate() {
+        let origin = Origin::Flag(number);
+        if let Err((message, note)) = apply_one(assignment, origin.clone(), draft) {
+            faults.add(origin, || (message, note));
+        }
+    }
+}
+
+/// A value, or a reason and perhaps a remedy.
+type Attempt<T> = std::result::Result<T, (String, Option<String>)>;
+
+fn apply_one(assignment: &Assignment, origin: Origin, draft: &mut Draft) -> Attempt<()> {
+    let path = assignment.path.as_str();
+    let target = find(path).ok_or_else(|| (unknown(path), None))?;
+    let value = read(target, &assignment.value)
+        .map_err(|(reason, note)| (format!("`{}` {reason}", short(path)), note))?;
+    let entry = Entry {
+        knob: target.knob,
+        value: Some(value),
+        origin,
+    };
+    let Some(item) = target.item else {
+        draft.singles.set(entry);
+        return Ok(());
+    };
+    let section = target.knob.section();
+    let group = item_of(draft.list(section), section, item)?;
+    let path = format!("{section}.{}.{}", group.name, target.knob.key());
+    group.set(entry);
+    if section != "materials" && !draft.set_shapes.contains(&path) {
+        draft.set_shapes.push(path);
+    }
+    Ok(())
+}
+
+/// The material of this name, or the sphere or box of this number.
+fn item_of<'d>(list: &'d mut [Group], section: &str, item: &str) -> Attempt<&'d mut Group> {
+    let count = list.len();
+    if section != "materials" {
+        let number = item.parse::<usize>().ok().filter(|number| *number < count);
+        return match number.and_then(|number| list.get_mut(number)) {
+            Some(group) => Ok(group),
+            None => Err((no_number(section, item, count), None)),
+        };
+    }
+    match list.iter().position(|group| group.name == item) {
+        Some(number) => Ok(&mut list[number]),
+        None => {
+            let names = list.iter().map(|group| group.name.as_str());
+            let note = nearest(item, names).map(|near| format!("did you mean `{near}`?"));
+            let message = format!("the scene has no material `{}`", short(item));
+            Err((message, note))
+        }
+    }
+}
+
+fn no_number(section: &str, item: &str, count: usize) -> String {
+    let item = short(item);
+    match count {
+        0 => format!("the scene has no {section}"),
+        1 => format!("there is no {section}.{item}: the scene has one of them, number 0"),
+        _ => format!(
+            "there is no {section}.{item}: the scene has {count} of them, 0 to {}",
+            count - 1
+        ),
+    }
+}
+
+/// The value in its knob's kind; where the knob takes names, a bare word is one.
+fn read(target: Target<'_>, text: &str) -> Attempt<Value> {
+    if text.is_empty() {
+        return Err(("has no value".into(), None));
+    }
+    let parsed = DeValue::parse(text);
+    let names = matches!(target.knob.kind, Kind::Choice(_) | Kind::Material);
+    let value = match parsed {
+        Ok(value) if value.get_ref().is_str() || !names => value,
+        _ => Spanned::new(0..text.len(), DeValue::String(text.into())),
+    };
+    let refused = |refusal: crate::knobs::Refusal| (refusal.reason, refusal.note);
+    target.knob.read(&value).map_err(refused)
+}

@@ -1,0 +1,394 @@
+//! From a draft to a scene: presets and defaults fill what nobody wrote, and the parts are checked
+//! against each other.
+
+use super::draft::{Draft, Group};
+use super::faults::{Faults, Origin};
+use super::{Camera, Cuboid, Material, Scene, Source, Sphere};
+use crate::knobs::{
+    KNOBS, Knob, Preset, SMALLEST, Settings, Value, choice, find, in_section, nearest, short,
+};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Pixels of a picture.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// The scene, or None if there are faults.
+pub(crate) fn build(
+    source: Source,
+    draft: &Draft,
+    whole: bool,
+    faults: &mut Faults<'_>,
+) -> Option<Scene> {
+    let mut builder = Builder {
+        draft,
+        preset: preset(draft),
+        // What seems to be missing may be in the part that is not TOML.
+        whole,
+        faults,
+    };
+    let strategy = builder.strategy();
+    let settings = Settings::gather(builder.preset, |path| match (path, &strategy) {
+        ("light.strategy", Some(implied)) => implied.clone(),
+        _ => builder.single(path),
+    });
+    builder.picture(&settings);
+    let camera = builder.camera();
+    let background = builder.single("background.emission").triple();
+    let materials = builder.materials();
+    let names: HashMap<_, _> = materials
+        .iter()
+        .enumerate()
+        .map(|(number, material)| (material.name.as_str(), number))
+        .collect();
+    let spheres = builder.spheres(&names);
+    let boxes = builder.boxes(&names);
+    let knobs = builder.record(strategy.as_ref());
+    faults.is_empty().then_some(Scene {
+        source,
+        camera,
+        background,
+        materials,
+        spheres,
+        boxes,
+        settings,
+        knobs,
+    })
+}
+
+/// The preset that the rest starts from.
+fn preset(draft: &Draft) -> Preset {
+    let written = draft.singles.by_path("render.preset");
+    written
+        .and_then(|entry| entry.value.as_ref())
+        .map_or(Preset::Reference, choice)
+}
+
+struct Builder<'d, 'f, 'a> {
+    draft: &'d Draft,
+    preset: Preset,
+    whole: bool,
+    faults: &'f mut Faults<'a>,
+}
+
+/// A stand-in for a value that is missing or was refused; the fault has been noted.
+fn stand_in(knob: &Knob, preset: Preset) -> Value {
+    use crate::knobs::Kind;
+    knob.value(preset).cloned().unwrap_or(match knob.kind {
+        Kind::Triple(_) => Value::Triple([0.0; 3]),
+        Kind::Material => Value::Text("".into()),
+        _ => Value::Number(1.0),
+    })
+}
+
+impl Builder<'_, '_, '_> {
+    /// A knob that there is one of.
+    fn single(&self, path: &str) -> Value {
+        let Some(target) = find(path) else {
+            unreachable!("`{path}` is not in the table of knobs");
+        };
+        let written = self.draft.singles.by_path(path);
+        written
+            .and_then(|entry| entry.value.clone())
+            .unwrap_or_else(|| stand_in(target.knob, self.preset))
+    }
+
+    /// Where a single knob's value comes from; for a preset's value, where the preset was chosen.
+    fn origin(&self, path: &str) -> Origin {
+        let singles = &self.draft.singles;
+        if let Some(entry) = singles.by_path(path) {
+            return entry.origin.clone();
+        }
+        let by_preset = find(path).is_some_and(|target| target.knob.in_presets());
+        match singles.by_path("render.preset") {
+            Some(entry) if by_preset => entry.origin.clone(),
+            _ => Origin::Default,
+        }
+    }
+
+    /// The origin to blame when several values do not fit: the command line spoke last, and of what
+    /// stands in the file the first of the list.
+    fn blame(&self, origins: &[Origin]) -> Origin {
+        let flag = origins.iter().rev().find(|o| matches!(o, Origin::Flag(_)));
+        let file = || origins.iter().find(|o| matches!(o, Origin::File(_)));
+        flag.or_else(file).cloned().unwrap_or(Origin::Default)
+    }
+
+    /// `sample` where Lambert light or the solid-angle weight implies it; asked for otherwise, it
+    /// is a fault.
+    fn strategy(&mut self) -> Option<Value> {
+        let implying = [("light.direct", "lambert"), ("light.weight", "solid-angle")];
+        let (path, value) = implying
+            .into_iter()
+            .find(|(path, value)| self.single(path).text() == *value)?;
+        let asked = self.single("light.strategy");
+        if asked.text() != "sample" && self.draft.singles.by_path("light.strategy").is_some() {
+            let origin = self.blame(&[self.origin("light.strategy"), self.origin(path)]);
+            self.faults.add(origin, || {
+                let message = format!(
+                    "`light.strategy` cannot be `{asked}` beside `{path} = \"{value}\"`, which samples the lamps only"
+                );
+                let note = format!(
+                    "leave out `light.strategy` or set it to `sample`; or set `{path}` to `{}`",
+                    if path == "light.direct" { "bsdf" } else { "pdf" }
+                );
+                (message, Some(note))
+            });
+        }
+        Some(Value::Text("sample".into()))
+    }
+
+    fn picture(&mut self, settings: &Settings) {
+        let (width, height) = (settings.image.width, settings.image.height);
+        if u64::from(width) * u64::from(height) > MOST_PIXELS {
+            let origin = self.blame(&[self.origin("image.width"), self.origin("image.height")]);
+            self.faults.add(origin, || {
+                let message = format!("a picture of {width} x {height} pixels is too large");
+                (
+                    message,
+                    Some("it may have 2^28 (268435456) pixels at most".into()),
+                )
+            });
+        }
+    }
+
+    fn camera(&mut self) -> Camera {
+        let singles = &self.draft.singles;
+        let mut complete = true;
+        for knob in in_section("camera").filter(|knob| knob.default().is_none()) {
+            match singles.by_path(knob.path) {
+                Some(entry) => complete &= entry.value.is_some(),
+                None => {
+                    complete = false;
+                    self.missing_camera(knob);
+                }
+            }
+        }
+        let camera = Camera {
+            position: self.single("camera.position").triple(),
+            look_at: self.single("camera.look_at").triple(),
+            up: self.single("camera.up").triple(),
+            fov: self.single("camera.fov").number(),
+        };
+        if complete {
+            self.view(&camera);
+        }
+        camera
+    }
+
+    fn missing_camera(&mut self, knob: &'static Knob) {
+        if !self.whole {
+            return;
+        }
+        let header = self
+            .draft
+            .headers
+            .iter()
+            .find(|(name, _)| *name == "camera");
+        let origin = header.map_or(Origin::File(0..0), |(_, origin)| origin.clone());
+        self.faults.add(origin, || {
+            let note = format!("[camera] needs `{}`: {}", knob.key(), knob.meaning);
+            (format!("`{}` is missing", knob.path), Some(note))
+        });
+    }
+
+    /// Whether the camera's three vectors span a picture.
+    fn view(&mut self, camera: &Camera) {
+        let looks = [
+            self.origin("camera.look_at"),
+            self.origin("camera.position"),
+        ];
+        let Some(view) = (camera.look_at - camera.position).try_normalize() else {
+            let origin = self.blame(&looks);
+            self.faults.add(origin, || {
+                (
+                    "`camera.look_at` must differ from `camera.position`".into(),
+                    None,
+                )
+            });
+            return;
+        };
+        let Some(up) = camera.up.try_normalize() else {
+            let origin = self.blame(&[self.origin("camera.up")]);
+            self.faults.add(origin, || {
+                (
+                    "`camera.up` must be a direction: its length must not be zero".into(),
+                    None,
+                )
+            });
+            return;
+        };
+        // Below a few times 1e-7 32-bit floats cannot tell the two apart.
+        if view.cross(up).length() < 1e-6 {
+            let [look_at, position] = looks;
+            let origin = self.blame(&[self.origin("camera.up"), look_at, position]);
+            self.faults.add(origin, || {
+                let note = "choose an `up` that is not along the line from `position` to `look_at`";
+                (
+                    "`camera.up` is parallel to the view".into(),
+                    Some(note.into()),
+                )
+            });
+        }
+    }
+
+    /// A knob of a material, sphere or box.
+    fn of(&mut self, group: &Group, section: &'static str, key: &str) -> Value {
+        let entry = group.entry(key);
+        if let Some(value) = entry.and_then(|entry| entry.value.clone()) {
+            return value;
+        }
+        let Some(knob) = in_section(section).find(|knob| knob.key() == key) else {
+            unreachable!("`{section}.*.{key}` is not in the table of knobs");
+        };
+        if entry.is_none() && knob.default().is_none() && self.whole {
+            self.faults.add(group.origin.clone(), || {
+                let path = format!("{section}.{}", group.name);
+                let note = format!("it needs `{key}`: {}", knob.meaning);
+                (format!("`{path}` has no `{key}`"), Some(note))
+            });
+        }
+        stand_in(knob, self.preset)
+    }
+
+    fn materials(&mut self) -> Vec<Material> {
+        let draft = self.draft;
+        let of = |group: &Group| Material {
+            name: group.name.clone(),
+            scatter: choice(&self.of(group, "materials", "scatter")),
+            albedo: self.of(group, "materials", "albedo").triple(),
+            spread: self.of(group, "materials", "spread").number(),
+            survival: self.of(group, "materials", "survival").number(),
+            emission: self.of(group, "materials", "emission").triple(),
+        };
+        draft.materials.iter().map(of).collect()
+    }
+
+    fn spheres(&mut self, names: &HashMap<&str, usize>) -> Vec<Sphere> {
+        let draft = self.draft;
+        let of = |group: &Group| Sphere {
+            center: self.of(group, "spheres", "center").triple(),
+            radius: self.of(group, "spheres", "radius").number(),
+            material: self.material(group, "spheres", names),
+        };
+        draft.spheres.iter().map(of).collect()
+    }
+
+    fn boxes(&mut self, names: &HashMap<&str, usize>) -> Vec<Cuboid> {
+        let draft = self.draft;
+        let of = |group: &Group| {
+            let cuboid = Cuboid {
+                min: self.of(group, "boxes", "min").triple(),
+                max: self.of(group, "boxes", "max").triple(),
+                rotation: self.of(group, "boxes", "rotation").triple(),
+                material: self.material(group, "boxes", names),
+            };
+            self.corners(group, &cuboid);
+            cuboid
+        };
+        draft.boxes.iter().map(of).collect()
+    }
+
+    fn corners(&mut self, group: &Group, cuboid: &Cuboid) {
+        let written = |key| group.entry(key).is_some_and(|entry| entry.value.is_some());
+        if !written("min") || !written("max") {
+            return;
+        }
+        let size: DVec3 = cuboid.max - cuboid.min;
+        let Some(axis) = (0..3).find(|axis| size[*axis] < SMALLEST) else {
+            return;
+        };
+        let origin = self.blame(&[group.origin("min"), group.origin("max")]);
+        self.faults.add(origin, || {
+            let (min, max) = (cuboid.min[axis], cuboid.max[axis]);
+            let message = format!(
+                "`boxes.{}` must have min < max; along {} min is {min} and max is {max}",
+                group.name,
+                ["x", "y", "z"][axis]
+            );
+            (message, Some("a flat box needs a little thickness".into()))
+        });
+    }
+
+    /// The number of the group's material.
+    fn material(
+        &mut self,
+        group: &Group,
+        section: &'static str,
+        names: &HashMap<&str, usize>,
+    ) -> usize {
+        let value = self.of(group, section, "material");
+        let name = value.text();
+        if let Some(number) = names.get(name) {
+            return *number;
+        }
+        let written = group
+            .entry("material")
+            .is_some_and(|entry| entry.value.is_some());
+        if written && self.whole {
+            self.faults.add(group.origin("material"), || {
+                let known = || names.keys().copied();
+                let note = match nearest(name, known()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None if names.is_empty() => {
+                        format!("write a table [materials.{}]", short(name))
+                    }
+                    None => format!("the materials are {}", listed(known().collect())),
+                };
+                (format!("unknown material `{}`", short(name)), Some(note))
+            });
+        }
+        0
+    }
+
+    /// Every knob's value by its path, as records carry them.
+    fn record(&self, strategy: Option<&Value>) -> serde_json::Map<String, serde_json::Value> {
+        let mut record = serde_json::Map::new();
+        for knob in KNOBS.iter().filter(|knob| !knob.repeats()) {
+            let value = match (knob.path, strategy) {
+                ("light.strategy", Some(implied)) => implied.to_json(),
+                (path, _) => self.single(path).to_json(),
+            };
+            record.insert(knob.path.into(), value);
+        }
+        let value = |group: &Group, knob: &'static Knob| {
+            let written = group
+                .entry(knob.key())
+                .and_then(|entry| entry.value.clone());
+            let value = written.unwrap_or_else(|| stand_in(knob, self.preset));
+            value.to_json()
+        };
+        for group in &self.draft.materials {
+            for knob in in_section("materials") {
+                let path = format!("materials.{}.{}", group.name, knob.key());
+                record.insert(path, value(group, knob));
+            }
+        }
+        for path in &self.draft.set_shapes {
+            let Some(target) = find(path) else { continue };
+            let list = match target.knob.section() {
+                "spheres" => &self.draft.spheres,
+                _ => &self.draft.boxes,
+            };
+            let number = target.item.and_then(|item| item.parse::<usize>().ok());
+            if let Some(group) = number.and_then(|number| list.get(number)) {
+                record.insert(path.clone(), value(group, target.knob));
+            }
+        }
+        record
+    }
+}
+
+/// The first of some names, in order.
+fn listed(mut names: Vec<&str>) -> String {
+    const MOST: usize = 12;
+    names.sort_unstable();
+    let more = names.len().saturating_sub(MOST);
+    let shown: Vec<_> = names.iter().take(MOST).map(|name| short(name)).collect();
+    let tail = if more > 0 {
+        format!(" and {more} more")
+    } else {
+        String::new()
+    };
+    shown.join(", ") + &tail
+}
