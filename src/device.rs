@@ -29,6 +29,18 @@ pub struct DeviceInfo {
     pub pci: String,
 }
 
+impl DeviceInfo {
+    /// Whether two devices give the same pixels for the same samples: same kind, name, driver and
+    /// backend, in whichever slot.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let pci = other.pci.clone();
+        Self {
+            pci,
+            ..self.clone()
+        } == *other
+    }
+}
+
 /// What a user asks for with `--device`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DeviceRequest {

@@ -1,8 +1,12 @@
 //! The command line: one file a command, each a thin face over one library call.
 
 mod check;
+mod devices;
 mod knobs;
 mod merge;
+mod options;
+mod render;
+mod run;
 
 use crate::error::{Error, Result};
 use clap::{Args, Parser, Subcommand};
@@ -32,8 +36,10 @@ pub(crate) struct Output {
 
 #[derive(Subcommand)]
 enum Command {
+    Render(render::Command),
     Check(check::Command),
     Knobs(knobs::Command),
+    Devices(devices::Command),
     Merge(merge::Command),
 }
 
@@ -41,8 +47,10 @@ enum Command {
 pub fn main() -> ExitCode {
     let line = Lampray::parse();
     let outcome = match line.command {
+        Command::Render(command) => command.run(line.output),
         Command::Check(command) => command.run(line.output),
         Command::Knobs(command) => command.run(line.output),
+        Command::Devices(command) => command.run(line.output),
         Command::Merge(command) => command.run(line.output),
     };
     match outcome {

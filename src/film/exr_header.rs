@@ -209,7 +209,7 @@ impl Parser<'_> {
 
     fn window(&self, value: &[u8]) -> Result<[i32; 4]> {
         let mut value = value;
-        let mut corner = || Ok(i32::from_le_bytes(self.bytes(&mut value)?));
+        let mut corner = || -> Result<i32> { Ok(i32::from_le_bytes(self.bytes(&mut value)?)) };
         Ok([corner()?, corner()?, corner()?, corner()?])
     }
 

@@ -1,8 +1,8 @@
 //! Adds pictures of disjoint samples of one render.
 
 use super::moments::{PictureMean, narrow};
-use super::record::Device;
 use super::{Picture, Record, read_exr, read_record};
+use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -114,7 +114,7 @@ fn differ<T>(first: &Part, other: &Part, what: &str, one: &str, another: &str) -
     ))
 }
 
-fn describe(device: &Device) -> String {
+fn describe(device: &DeviceInfo) -> String {
     format!("{} ({} {})", device.name, device.backend, device.driver)
 }
 
@@ -199,7 +199,7 @@ struct Sum {
     /// Everything but the pixels, which are taken out.
     picture: Picture,
     ranges: Vec<[u64; 2]>,
-    devices: Vec<Device>,
+    devices: Vec<DeviceInfo>,
 }
 
 impl Sum {
@@ -276,7 +276,7 @@ impl Sum {
     }
 }
 
-fn devices(record: &Record) -> Vec<Device> {
+fn devices(record: &Record) -> Vec<DeviceInfo> {
     match record.devices.as_slice() {
         [] => vec![record.device.clone()],
         devices => devices.to_vec(),

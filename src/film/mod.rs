@@ -31,5 +31,5 @@ pub use moments::{Film, NonFinite};
 pub use output::{Format, Target, name_outputs};
 pub use picture::{Aov, Features, Picture};
 pub use read::{read_exr, read_record};
-pub use record::{Device, DeviceKind, Record, Seconds};
+pub use record::{Record, Seconds};
 pub use text::SCENE_TEXT_LIMIT;

@@ -1,5 +1,6 @@
 //! The run record: everything needed to know what a picture is, and to render it again.
 
+use crate::device::DeviceInfo;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -17,10 +18,10 @@ pub struct Record {
     pub preset: String,
     /// Every knob with its value, by path, as [`crate::scene::Scene::knobs`] has them.
     pub knobs: Map<String, Value>,
-    pub device: Device,
+    pub device: DeviceInfo,
     /// Every device of a picture that was merged from several; absent for one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub devices: Vec<Device>,
+    pub devices: Vec<DeviceInfo>,
     /// Pixels of this picture.
     pub width: u32,
     /// Pixels of this picture.
@@ -66,40 +67,6 @@ impl Record {
         // Keys are strings and no value can fail to be written, so there is no error to report.
         serde_json::to_string(self).unwrap_or_default()
     }
-}
-
-/// What rendered.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Device {
-    pub kind: DeviceKind,
-    pub name: String,
-    pub driver: String,
-    pub backend: String,
-    /// Address on the PCI bus, empty where there is none.
-    pub pci: String,
-}
-
-impl Device {
-    /// Whether two devices give the same pixels for the same samples: same kind, name, driver
-    /// and backend, in whichever slot.
-    pub fn is_like(&self, other: &Device) -> bool {
-        let pci = other.pci.clone();
-        Device {
-            pci,
-            ..self.clone()
-        } == *other
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum DeviceKind {
-    /// A GPU.
-    Hardware,
-    /// Vulkan on the CPU.
-    Software,
-    /// The built-in CPU renderer.
-    Cpu,
 }
 
 /// Wall-clock times.

@@ -129,7 +129,7 @@ pub fn render_plan(
 
 /// Adds a block's tallies to the film, run by run.
 fn add_block(film: &mut Film, block: &Block, tallies: &[crate::pack::Tally]) {
-    let (rect, region) = (block.rect, film.region());
+    let (rect, region) = (block.rect, film.region);
     let mut tallies = tallies.iter();
     for (first, samples) in run_ranges(block.first_sample, block.samples) {
         for y in rect.y0..rect.y1 {

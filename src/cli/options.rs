@@ -1,0 +1,124 @@
+//! Arguments that several commands share, and their one conversion each.
+
+use crate::device::{DeviceKind, DeviceRequest};
+use crate::error::{Error, Result};
+use crate::pack::Rect;
+use crate::render::{self, Chosen};
+use crate::scene::{Assignment, Scene};
+use clap::{Args, ValueEnum};
+use std::ops::Range;
+use std::path::Path;
+
+/// Knobs over what the scene says.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct KnobOptions {
+    /// Set a knob over what the scene says; may be given many times, the last one counts
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// Short for --set image.width=PIXELS
+    #[arg(long, value_name = "PIXELS")]
+    width: Option<String>,
+    /// Short for --set image.height=PIXELS
+    #[arg(long, value_name = "PIXELS")]
+    height: Option<String>,
+    /// Paths a pixel: short for --set render.samples=N
+    #[arg(short, long, visible_alias = "spp", value_name = "N")]
+    samples: Option<String>,
+    /// Short for --set render.seed=N
+    #[arg(long, value_name = "N")]
+    seed: Option<String>,
+    /// Short for --set render.max_bounces=N
+    #[arg(long, value_name = "N")]
+    max_bounces: Option<String>,
+    /// montelight, paper, corrected or reference: short for --set render.preset=NAME
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+}
+
+impl KnobOptions {
+    /// All of them as assignments; the short forms come last, and so count.
+    pub(crate) fn assignments(&self) -> Result<Vec<Assignment>> {
+        let mut all: Vec<_> = self
+            .set
+            .iter()
+            .map(|text| Assignment::parse(text))
+            .collect::<Result<_>>()?;
+        let short = [
+            ("image.width", "--width", &self.width),
+            ("image.height", "--height", &self.height),
+            ("render.samples", "--samples", &self.samples),
+            ("render.seed", "--seed", &self.seed),
+            ("render.max_bounces", "--max-bounces", &self.max_bounces),
+            ("render.preset", "--preset", &self.preset),
+        ];
+        for (path, flag, value) in short {
+            if let Some(value) = value {
+                all.push(Assignment::new(path, value, format!("{flag} {value}")));
+            }
+        }
+        Ok(all)
+    }
+
+    pub(crate) fn load(&self, path: &Path) -> Result<Scene> {
+        Scene::load(path, &self.assignments()?)
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Require {
+    Hardware,
+    Software,
+}
+
+/// Which device.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct DeviceOptions {
+    /// auto, cpu, gpu, software, a number or part of a name from `lampray devices`, or pci:ADDRESS
+    #[arg(long, default_value = "auto", value_name = "WHICH")]
+    device: String,
+    /// Fail rather than use another kind of device
+    #[arg(long, value_name = "KIND")]
+    require: Option<Require>,
+}
+
+impl DeviceOptions {
+    pub(crate) fn open(&self) -> Result<Chosen> {
+        let request: DeviceRequest = self.device.parse()?;
+        let require = self.require.map(|kind| match kind {
+            Require::Hardware => DeviceKind::Hardware,
+            Require::Software => DeviceKind::Software,
+        });
+        render::open(&request, require)
+    }
+}
+
+/// `X0,Y0,X1,Y1` inside an image.
+pub(crate) fn crop(text: &str, scene: &Scene) -> Result<Rect> {
+    let all = render::whole(scene);
+    let numbers: Option<Vec<u32>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .collect();
+    match numbers.as_deref() {
+        Some(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 && x1 <= all.x1 && y1 <= all.y1 => {
+            Ok(Rect { x0, y0, x1, y1 })
+        }
+        _ => Err(Error::Usage(format!(
+            "--crop {text}: give X0,Y0,X1,Y1 in pixels with 0 <= X0 < X1 <= {} and 0 <= Y0 < Y1 <= {}",
+            all.x1, all.y1
+        ))),
+    }
+}
+
+/// `A..B` with A < B, at most 2^63.
+pub(crate) fn sample_range(text: &str) -> Result<Range<u64>> {
+    let parsed = text.split_once("..").and_then(|(start, end)| {
+        Some(start.trim().parse::<u64>().ok()?..end.trim().parse::<u64>().ok()?)
+    });
+    match parsed {
+        Some(range) if range.start < range.end && range.end <= 1 << 63 => Ok(range),
+        _ => Err(Error::Usage(format!(
+            "--sample-range {text}: give A..B with A < B, whole numbers, B exclusive (for example 0..64)"
+        ))),
+    }
+}
