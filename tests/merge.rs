@@ -168,7 +168,7 @@ fn other_renders_are_refused_by_what_differs() {
             picture
                 .record
                 .knobs
-                .insert("camera.fov".into(), json!(45.000000000000021));
+                .insert("camera.fov".into(), json!(45.000_000_000_000_02));
         }),
         ("light.pole", |picture| {
             picture
