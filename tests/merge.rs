@@ -168,7 +168,7 @@ fn other_renders_are_refused_by_what_differs() {
             picture
                 .record
                 .knobs
-                .insert("camera.fov".into(), json!(45.000000000000021));
+                .insert("camera.fov".into(), json!(45.000_000_000_000_02));
         }),
         ("light.pole", |picture| {
             picture
@@ -203,6 +203,7 @@ fn devices_are_mixed_only_on_request() {
 
     let merged = merge(&write_all(&folder, &[picture(0..8), other.clone()]), true).unwrap();
     assert_eq!(merged.record.devices, [device("llvmpipe"), device("H200")]);
+    assert!(refusal(&[merged, picture(16..24)]).contains("--allow-mixed"));
 
     // The same device in another slot is the same device.
     other.record.device = device("llvmpipe");

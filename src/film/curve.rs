@@ -33,8 +33,8 @@ impl Curve {
     /// The 8-bit value of a radiance that the gain has been applied to. NaN and anything below
     /// zero are black, anything above one is white.
     pub fn encode(&self, exposed: f64) -> u8 {
-        // `max` returns the other operand for NaN.
-        let linear = exposed.max(0.0).min(1.0);
+        // NaN is not above zero either.
+        let linear = if exposed > 0.0 { exposed.min(1.0) } else { 0.0 };
         match self.encoding {
             // Nearest: the cast rounds down.
             Encoding::Srgb => (255.0 * srgb(linear) + 0.5) as u8,

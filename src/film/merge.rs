@@ -1,13 +1,11 @@
 //! Adds pictures of disjoint samples of one render.
 
 use super::moments::{PictureMean, narrow};
-use super::{Picture, Record, read_exr, read_record};
+use super::parts::{Part, SAMPLES, check_disjoint, compare};
 use crate::device::DeviceInfo;
+use super::{Picture, Record};
 use crate::error::{Error, Result};
-use std::path::{Path, PathBuf};
-
-/// The knob in which the pictures may differ: how many samples.
-const SAMPLES: &str = "render.samples";
+use std::path::Path;
 
 /// Reads EXR pictures and adds them up, in the order of their samples, whatever the order of
 /// `paths`. With `allow_mixed` they may come from different devices.
@@ -16,9 +14,7 @@ const SAMPLES: &str = "render.samples";
 pub fn merge<P: AsRef<Path>>(paths: &[P], allow_mixed: bool) -> Result<Picture> {
     let mut parts = Vec::new();
     for path in paths {
-        let path = path.as_ref().to_path_buf();
-        let (record, _) = read_record(&path)?;
-        parts.push(Part { path, record });
+        parts.push(Part::open(path.as_ref())?);
     }
     parts.sort_by_key(|part| part.record.ranges());
     let Some((first, others)) = parts.split_first() else {
@@ -35,119 +31,6 @@ pub fn merge<P: AsRef<Path>>(paths: &[P], allow_mixed: bool) -> Result<Picture> 
         sum.add(other.read()?)?;
     }
     Ok(sum.finish())
-}
-
-/// One of the pictures.
-struct Part {
-    path: PathBuf,
-    record: Record,
-}
-
-impl Part {
-    fn fail<T>(&self, reason: String) -> Result<T> {
-        Err(Error::Data {
-            path: self.path.clone(),
-            reason,
-        })
-    }
-
-    fn read(&self) -> Result<Picture> {
-        let picture = read_exr(&self.path)?;
-        if picture.record != self.record {
-            return self.fail("the file was changed while it was read".into());
-        }
-        let finite =
-            |plane: &[[f32; 3]]| plane.as_flattened().iter().all(|value| value.is_finite());
-        if !finite(&picture.mean) || !finite(&picture.variance) {
-            return self.fail("there are pixels that are not finite".into());
-        }
-        Ok(picture)
-    }
-}
-
-/// Refuses two pictures that are not of one render.
-fn compare(first: &Part, other: &Part, allow_mixed: bool) -> Result<()> {
-    let (a, b) = (&first.record, &other.record);
-    let fields = [
-        ("scene_hash", a.scene_hash.clone(), b.scene_hash.clone()),
-        ("shader_hash", a.shader_hash.clone(), b.shader_hash.clone()),
-        ("width", a.width.to_string(), b.width.to_string()),
-        ("height", a.height.to_string(), b.height.to_string()),
-        ("crop", format!("{:?}", a.crop), format!("{:?}", b.crop)),
-        ("seed", a.seed.to_string(), b.seed.to_string()),
-    ];
-    for (field, one, another) in fields {
-        if one != another {
-            return differ(first, other, field, &one, &another);
-        }
-    }
-    compare_knobs(first, other)?;
-    if !allow_mixed && !a.device.is_like(&b.device) {
-        let reason = format!(
-            "rendered on {}, but {} on {}; --allow-mixed merges them all the same",
-            describe(&b.device),
-            first.path.display(),
-            describe(&a.device)
-        );
-        return other.fail(reason);
-    }
-    Ok(())
-}
-
-fn compare_knobs(first: &Part, other: &Part) -> Result<()> {
-    let (a, b) = (&first.record.knobs, &other.record.knobs);
-    let shown =
-        |value: Option<&serde_json::Value>| value.map_or("absent".into(), |v| v.to_string());
-    for knob in a.keys().chain(b.keys()).filter(|knob| *knob != SAMPLES) {
-        let (one, another) = (a.get(knob), b.get(knob));
-        if one != another {
-            return differ(first, other, knob, &shown(one), &shown(another));
-        }
-    }
-    Ok(())
-}
-
-fn differ<T>(first: &Part, other: &Part, what: &str, one: &str, another: &str) -> Result<T> {
-    let first = first.path.display();
-    other.fail(format!(
-        "{what} is {another}, but {one} in {first}: not the same render"
-    ))
-}
-
-fn describe(device: &DeviceInfo) -> String {
-    format!("{} ({} {})", device.name, device.backend, device.driver)
-}
-
-/// Refuses two pictures that share a sample.
-fn check_disjoint(parts: &[Part]) -> Result<()> {
-    let ranges = |part| Part::ranges(part);
-    let mut all: Vec<([u64; 2], &Part)> = parts.iter().flat_map(ranges).collect();
-    all.sort_by_key(|(range, _)| *range);
-    for pair in all.windows(2) {
-        let [(one, first), (another, other)] = pair else {
-            continue;
-        };
-        if another[0] < one[1] {
-            let first = first.path.display();
-            return other.fail(format!(
-                "samples {}..{} overlap with {}..{} of {first}",
-                another[0], another[1], one[0], one[1]
-            ));
-        }
-    }
-    Ok(())
-}
-
-impl Part {
-    /// The ranges that hold samples, with the picture that they are in.
-    fn ranges(&self) -> impl Iterator<Item = ([u64; 2], &Part)> {
-        let filled = |range: &[u64; 2]| range[0] < range[1];
-        self.record
-            .ranges()
-            .into_iter()
-            .filter(filled)
-            .map(move |range| (range, self))
-    }
 }
 
 /// Moments of one pixel.
@@ -211,7 +94,7 @@ impl Sum {
         picture.variance = Vec::new();
         picture.samples = Vec::new();
         let ranges = picture.record.ranges();
-        let devices = devices(&picture.record);
+        let devices = picture.record.all_devices();
         Sum {
             pixels,
             picture,
@@ -226,7 +109,7 @@ impl Sum {
             moments.add(&Moments::of(&other, pixel));
         }
         self.ranges.extend(other.record.ranges());
-        for device in devices(&other.record) {
+        for device in other.record.all_devices() {
             if !self.devices.contains(&device) {
                 self.devices.push(device);
             }
@@ -273,13 +156,6 @@ impl Sum {
         }
         set_ranges(record, ranges);
         picture
-    }
-}
-
-fn devices(record: &Record) -> Vec<DeviceInfo> {
-    match record.devices.as_slice() {
-        [] => vec![record.device.clone()],
-        devices => devices.to_vec(),
     }
 }
 

@@ -15,6 +15,7 @@ mod exr_header;
 mod merge;
 mod moments;
 mod output;
+mod parts;
 mod picture;
 mod read;
 mod read_exr;

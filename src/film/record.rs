@@ -62,6 +62,14 @@ impl Record {
         }
     }
 
+    /// Everything that took part in rendering.
+    pub fn all_devices(&self) -> Vec<DeviceInfo> {
+        match self.devices.as_slice() {
+            [] => vec![self.device.clone()],
+            devices => devices.to_vec(),
+        }
+    }
+
     /// One line of JSON.
     pub fn to_json(&self) -> String {
         // Keys are strings and no value can fail to be written, so there is no error to report.

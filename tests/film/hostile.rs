@@ -212,3 +212,24 @@ fn records_that_are_not_records() {
         ));
     }
 }
+
+/// A digit that changed would still be a record; the checksum tells.
+#[test]
+fn no_bit_of_a_record_in_a_png_changes_unseen() {
+    let folder = Folder::new();
+    let path = folder.join("a.png");
+    let picture = picture(0..4);
+    write(&picture, &path);
+    let bytes = fs::read(&path).unwrap();
+    let json = picture.record.to_json();
+    let start = bytes
+        .windows(json.len())
+        .position(|window| window == json.as_bytes())
+        .unwrap();
+    for place in start..start + json.len() {
+        let mut bytes = bytes.clone();
+        bytes[place] ^= 1;
+        fs::write(&path, &bytes).unwrap();
+        assert!(!read(&path)[1], "byte {place}");
+    }
+}

@@ -173,12 +173,26 @@ mod unix {
         assert!(read_exr(&longest).is_ok());
     }
 
+    /// Prepares a device as target. A file beside it would be renamed over the device next, which
+    /// must not happen to the machine that runs the tests: it is looked for first.
+    fn device(path: &Path) -> Target {
+        let target = Target::prepare(path).unwrap();
+        let temporary = |entry: std::io::Result<fs::DirEntry>| {
+            entry.is_ok_and(|entry| entry.file_name().as_bytes().starts_with(b".lampray"))
+        };
+        for folder in [Path::new("/dev"), path.parent().unwrap()] {
+            assert!(!fs::read_dir(folder).unwrap().any(temporary));
+        }
+        target
+    }
+
     #[test]
     fn devices_are_written_into() {
         let folder = Folder::new();
-        write(&picture(0..2), Path::new("/dev/null"));
         symlink("/dev/null", folder.join("null.exr")).unwrap();
-        write(&picture(0..2), &folder.join("null.exr"));
+        for path in [Path::new("/dev/null"), &folder.join("null.exr")] {
+            device(path).write(&picture(0..2)).unwrap();
+        }
         assert!(
             fs::metadata("/dev/null")
                 .unwrap()

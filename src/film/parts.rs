@@ -1,0 +1,139 @@
+//! Whether pictures are parts of one render.
+
+use crate::device::DeviceInfo;
+use super::{Picture, Record, read_exr, read_record};
+use crate::error::{Error, Result};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The knob in which the parts may differ: how many samples.
+pub(super) const SAMPLES: &str = "render.samples";
+
+/// One of the pictures, of which only the record is in memory.
+pub(super) struct Part {
+    path: PathBuf,
+    pub(super) record: Record,
+}
+
+impl Part {
+    pub(super) fn open(path: &Path) -> Result<Part> {
+        let (record, _) = read_record(path)?;
+        Ok(Part {
+            path: path.into(),
+            record,
+        })
+    }
+
+    fn fail<T>(&self, reason: String) -> Result<T> {
+        Err(Error::Data {
+            path: self.path.clone(),
+            reason,
+        })
+    }
+
+    /// The ranges that hold samples, with the picture that they are in.
+    fn ranges(&self) -> impl Iterator<Item = ([u64; 2], &Part)> {
+        let filled = |range: &[u64; 2]| range[0] < range[1];
+        self.record
+            .ranges()
+            .into_iter()
+            .filter(filled)
+            .map(move |range| (range, self))
+    }
+
+    pub(super) fn read(&self) -> Result<Picture> {
+        let picture = read_exr(&self.path)?;
+        if picture.record != self.record {
+            return self.fail("the file was changed while it was read".into());
+        }
+        let finite =
+            |plane: &[[f32; 3]]| plane.as_flattened().iter().all(|value| value.is_finite());
+        if !finite(&picture.mean) || !finite(&picture.variance) {
+            return self.fail("there are pixels that are not finite".into());
+        }
+        Ok(picture)
+    }
+}
+
+/// Refuses two pictures that are not of one render.
+pub(super) fn compare(first: &Part, other: &Part, allow_mixed: bool) -> Result<()> {
+    let (a, b) = (&first.record, &other.record);
+    let fields = [
+        ("scene_hash", a.scene_hash.clone(), b.scene_hash.clone()),
+        ("shader_hash", a.shader_hash.clone(), b.shader_hash.clone()),
+        ("width", a.width.to_string(), b.width.to_string()),
+        ("height", a.height.to_string(), b.height.to_string()),
+        ("crop", format!("{:?}", a.crop), format!("{:?}", b.crop)),
+        ("seed", a.seed.to_string(), b.seed.to_string()),
+    ];
+    for (field, one, another) in fields {
+        if one != another {
+            return differ(first, other, field, &one, &another);
+        }
+    }
+    compare_knobs(first, other)?;
+    if !allow_mixed {
+        compare_devices(first, other)?;
+    }
+    Ok(())
+}
+
+/// A picture that was merged from several devices is mixed already.
+fn compare_devices(first: &Part, other: &Part) -> Result<()> {
+    let device = &first.record.device;
+    for part in [first, other] {
+        let others = part.record.all_devices();
+        if let Some(unlike) = others.iter().find(|other| !other.is_like(device)) {
+            return part.fail(format!(
+                "rendered on {}, but {} on {}; --allow-mixed merges them all the same",
+                describe(unlike),
+                first.path.display(),
+                describe(device)
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn compare_knobs(first: &Part, other: &Part) -> Result<()> {
+    let (a, b) = (&first.record.knobs, &other.record.knobs);
+    let shown = |value: Option<&Value>| value.map_or("absent".into(), |v| v.to_string());
+    for knob in a.keys().chain(b.keys()).filter(|knob| *knob != SAMPLES) {
+        let (one, another) = (a.get(knob), b.get(knob));
+        if one != another {
+            return differ(first, other, knob, &shown(one), &shown(another));
+        }
+    }
+    Ok(())
+}
+
+fn differ<T>(first: &Part, other: &Part, what: &str, one: &str, another: &str) -> Result<T> {
+    let first = first.path.display();
+    other.fail(format!(
+        "{what} is {another}, but {one} in {first}: not the same render"
+    ))
+}
+
+fn describe(device: &DeviceInfo) -> String {
+    format!("{} ({} {})", device.name, device.backend, device.driver)
+}
+
+/// Refuses two pictures that share a sample.
+pub(super) fn check_disjoint(parts: &[Part]) -> Result<()> {
+    let ranges = |part| Part::ranges(part);
+    let mut all: Vec<([u64; 2], &Part)> = parts.iter().flat_map(ranges).collect();
+    all.sort_by_key(|(range, _)| *range);
+    for pair in all.windows(2) {
+        let [(one, first), (another, other)] = pair else {
+            continue;
+        };
+        if another[0] < one[1] {
+            let first = first.path.display();
+            return other.fail(format!(
+                "samples {}..{} overlap with {}..{} of {first}",
+                another[0], another[1], one[0], one[1]
+            ));
+        }
+    }
+    Ok(())
+}
