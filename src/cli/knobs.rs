@@ -1,6 +1,8 @@
 use super::{Output, Result, print};
 use crate::error::Error;
-use crate::knobs::{KNOBS, Knob, find, knob_json, markdown, page, schema, table, unknown};
+use crate::knobs::{
+    KNOBS, Knob, find, knob_json, markdown, nearest, page, schema, sections, short, table, unknown,
+};
 use clap::Args;
 
 /// List every knob: path, values, unit, default, meaning
@@ -55,7 +57,13 @@ fn chosen(path: &str) -> Result<(Vec<&'static Knob>, bool)> {
     let below = |knob: &&Knob| knob.path.starts_with(path);
     let knobs: Vec<_> = KNOBS.iter().filter(below).collect();
     if knobs.is_empty() {
-        return Err(Error::Knob(unknown(path)));
+        let message = match nearest(path, sections()) {
+            Some(near) if !path.contains('.') => {
+                format!("there is no knob `{}`; did you mean `{near}`?", short(path))
+            }
+            _ => unknown(path),
+        };
+        return Err(Error::Knob(message));
     }
     Ok((knobs, false))
 }

@@ -4,8 +4,7 @@ use glam::DVec3;
 use std::borrow::Cow;
 use std::fmt;
 
-/// The largest size a number may have: its square still fits the 32-bit floats of the devices'
-/// neighbours, the 64-bit floats of the host, and the number itself fits both.
+/// The largest size a number may have: it fits 32-bit floats with room for a few sums.
 pub const LARGEST: f64 = 1e30;
 /// The smallest number that counts as positive; 32-bit floats lose digits below 1.2e-38.
 pub const SMALLEST: f64 = 1e-30;
@@ -65,7 +64,8 @@ impl Range {
     /// The number itself, minus zero made plain zero, or why it is refused.
     pub fn check(&self, number: f64) -> Result<f64, String> {
         if !number.is_finite() {
-            return Err(format!("must be a finite number, not {number}"));
+            let shown = number.to_string().to_lowercase();
+            return Err(format!("must be a finite number, not {shown}"));
         }
         // What 32-bit devices see counts too: 179.99999999 would be 180 there.
         let single = f64::from(number as f32);
@@ -121,6 +121,7 @@ impl Kind {
     /// Which values of the type are taken.
     pub fn range(&self) -> String {
         match self {
+            Self::Integer { least, most } if *most == u64::MAX => format!("{least} to 2^64-1"),
             Self::Integer { least, most } => format!("{least} to {most}"),
             Self::Number(range) | Self::Triple(range) => range.to_string(),
             Self::OptionalNumber(range) => format!("{range}, or off"),

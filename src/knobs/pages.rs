@@ -35,21 +35,31 @@ pub fn table(knobs: &[&Knob], width: usize) -> String {
 fn cells(knob: &Knob) -> [String; 5] {
     [
         knob.path.into(),
-        values(knob),
+        unbroken(&values(knob)),
         knob.unit.into(),
         default(knob),
         knob.meaning.into(),
     ]
 }
 
+/// A space at which lines do not break.
+const HARD_SPACE: char = '\u{a0}';
+
+/// Keeps what stands between commas on one line: `> 0 and < 180`, `three numbers`.
+fn unbroken(values: &str) -> String {
+    let hard = values.replace(' ', "\u{a0}");
+    hard.replace(",\u{a0}", ", ")
+}
+
 /// Type and range in a few words.
 fn values(knob: &Knob) -> String {
+    let range = knob.kind.range();
     match knob.kind {
         Kind::Integer { .. } | Kind::Number(_) | Kind::Triple(_) => {
-            format!("{}, {}", knob.kind.type_name(), knob.kind.range())
+            format!("{}, {}", knob.kind.type_name(), range)
         }
-        Kind::OptionalNumber(_) => format!("number, {}", knob.kind.range()),
-        Kind::Choice(_) | Kind::Pole | Kind::Material => knob.kind.range(),
+        Kind::OptionalNumber(_) => format!("number, {range}"),
+        Kind::Choice(_) | Kind::Pole | Kind::Material => range,
     }
 }
 
@@ -91,6 +101,9 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
             _ => lines.push(word.into()),
         }
     }
+    for line in &mut lines {
+        *line = line.replace(HARD_SPACE, " ");
+    }
     lines
 }
 
@@ -115,7 +128,7 @@ pub fn page(knob: &Knob) -> String {
             let name = if number == 0 { "presets" } else { "" };
             line(
                 name,
-                &format!("{preset:11} {}", preset_value(knob, *preset)),
+                &format!("{:11} {}", preset.name(), preset_value(knob, *preset)),
             );
         }
     }
@@ -205,7 +218,8 @@ pub fn markdown() -> String {
     let mut page =
         String::from("| knob | values | unit | default | meaning |\n|---|---|---|---|---|\n");
     for knob in KNOBS {
-        let [path, values, unit, default, meaning] = cells(knob);
+        let (path, values, default) = (knob.path, values(knob), default(knob));
+        let (unit, meaning) = (knob.unit, knob.meaning);
         let _ = writeln!(
             page,
             "| `{path}` | {values} | {unit} | {default} | {meaning} |"

@@ -69,21 +69,26 @@ type Attempt<T> = std::result::Result<T, (String, Option<String>)>;
 fn apply_one(assignment: &Assignment, origin: Origin, draft: &mut Draft) -> Attempt<()> {
     let path = assignment.path.as_str();
     let target = find(path).ok_or_else(|| (unknown(path), None))?;
-    let value = read(target, &assignment.value)
-        .map_err(|(reason, note)| (format!("`{}` {reason}", short(path)), note))?;
-    let entry = Entry {
-        knob: target.knob,
-        value: Some(value),
-        origin,
-    };
+    let knob = target.knob;
+    let refused = |(reason, note)| (format!("`{}` {reason}", short(path)), note);
     let Some(item) = target.item else {
-        draft.singles.set(entry);
+        let value = Some(read(target, &assignment.value).map_err(refused)?);
+        draft.singles.set(Entry {
+            knob,
+            value,
+            origin,
+        });
         return Ok(());
     };
-    let section = target.knob.section();
+    let section = knob.section();
     let group = item_of(draft.list(section), section, item)?;
-    let path = format!("{section}.{}.{}", group.name, target.knob.key());
-    group.set(entry);
+    let value = Some(read(target, &assignment.value).map_err(refused)?);
+    group.set(Entry {
+        knob,
+        value,
+        origin,
+    });
+    let path = format!("{section}.{}.{}", group.name, knob.key());
     if section != "materials" && !draft.set_shapes.contains(&path) {
         draft.set_shapes.push(path);
     }

@@ -3,11 +3,8 @@
 
 use super::draft::{Draft, Group};
 use super::faults::{Faults, Origin};
-use super::{Camera, Cuboid, Material, Scene, Source, Sphere};
-use crate::knobs::{
-    KNOBS, Knob, Preset, SMALLEST, Settings, Value, choice, find, in_section, nearest, short,
-};
-use glam::DVec3;
+use super::{Camera, Scene, Source};
+use crate::knobs::{KNOBS, Knob, Preset, Settings, Value, choice, find, in_section};
 use std::collections::HashMap;
 
 /// Pixels of a picture.
@@ -64,15 +61,15 @@ fn preset(draft: &Draft) -> Preset {
         .map_or(Preset::Reference, choice)
 }
 
-struct Builder<'d, 'f, 'a> {
-    draft: &'d Draft,
-    preset: Preset,
-    whole: bool,
-    faults: &'f mut Faults<'a>,
+pub(super) struct Builder<'d, 'f, 'a> {
+    pub(super) draft: &'d Draft,
+    pub(super) preset: Preset,
+    pub(super) whole: bool,
+    pub(super) faults: &'f mut Faults<'a>,
 }
 
 /// A stand-in for a value that is missing or was refused; the fault has been noted.
-fn stand_in(knob: &Knob, preset: Preset) -> Value {
+pub(super) fn stand_in(knob: &Knob, preset: Preset) -> Value {
     use crate::knobs::Kind;
     knob.value(preset).cloned().unwrap_or(match knob.kind {
         Kind::Triple(_) => Value::Triple([0.0; 3]),
@@ -108,7 +105,7 @@ impl Builder<'_, '_, '_> {
 
     /// The origin to blame when several values do not fit: the command line spoke last, and of what
     /// stands in the file the first of the list.
-    fn blame(&self, origins: &[Origin]) -> Origin {
+    pub(super) fn blame(&self, origins: &[Origin]) -> Origin {
         let flag = origins.iter().rev().find(|o| matches!(o, Origin::Flag(_)));
         let file = || origins.iter().find(|o| matches!(o, Origin::File(_)));
         flag.or_else(file).cloned().unwrap_or(Origin::Default)
@@ -232,115 +229,6 @@ impl Builder<'_, '_, '_> {
         }
     }
 
-    /// A knob of a material, sphere or box.
-    fn of(&mut self, group: &Group, section: &'static str, key: &str) -> Value {
-        let entry = group.entry(key);
-        if let Some(value) = entry.and_then(|entry| entry.value.clone()) {
-            return value;
-        }
-        let Some(knob) = in_section(section).find(|knob| knob.key() == key) else {
-            unreachable!("`{section}.*.{key}` is not in the table of knobs");
-        };
-        if entry.is_none() && knob.default().is_none() && self.whole {
-            self.faults.add(group.origin.clone(), || {
-                let path = format!("{section}.{}", group.name);
-                let note = format!("it needs `{key}`: {}", knob.meaning);
-                (format!("`{path}` has no `{key}`"), Some(note))
-            });
-        }
-        stand_in(knob, self.preset)
-    }
-
-    fn materials(&mut self) -> Vec<Material> {
-        let draft = self.draft;
-        let of = |group: &Group| Material {
-            name: group.name.clone(),
-            scatter: choice(&self.of(group, "materials", "scatter")),
-            albedo: self.of(group, "materials", "albedo").triple(),
-            spread: self.of(group, "materials", "spread").number(),
-            survival: self.of(group, "materials", "survival").number(),
-            emission: self.of(group, "materials", "emission").triple(),
-        };
-        draft.materials.iter().map(of).collect()
-    }
-
-    fn spheres(&mut self, names: &HashMap<&str, usize>) -> Vec<Sphere> {
-        let draft = self.draft;
-        let of = |group: &Group| Sphere {
-            center: self.of(group, "spheres", "center").triple(),
-            radius: self.of(group, "spheres", "radius").number(),
-            material: self.material(group, "spheres", names),
-        };
-        draft.spheres.iter().map(of).collect()
-    }
-
-    fn boxes(&mut self, names: &HashMap<&str, usize>) -> Vec<Cuboid> {
-        let draft = self.draft;
-        let of = |group: &Group| {
-            let cuboid = Cuboid {
-                min: self.of(group, "boxes", "min").triple(),
-                max: self.of(group, "boxes", "max").triple(),
-                rotation: self.of(group, "boxes", "rotation").triple(),
-                material: self.material(group, "boxes", names),
-            };
-            self.corners(group, &cuboid);
-            cuboid
-        };
-        draft.boxes.iter().map(of).collect()
-    }
-
-    fn corners(&mut self, group: &Group, cuboid: &Cuboid) {
-        let written = |key| group.entry(key).is_some_and(|entry| entry.value.is_some());
-        if !written("min") || !written("max") {
-            return;
-        }
-        let size: DVec3 = cuboid.max - cuboid.min;
-        let Some(axis) = (0..3).find(|axis| size[*axis] < SMALLEST) else {
-            return;
-        };
-        let origin = self.blame(&[group.origin("min"), group.origin("max")]);
-        self.faults.add(origin, || {
-            let (min, max) = (cuboid.min[axis], cuboid.max[axis]);
-            let message = format!(
-                "`boxes.{}` must have min < max; along {} min is {min} and max is {max}",
-                group.name,
-                ["x", "y", "z"][axis]
-            );
-            (message, Some("a flat box needs a little thickness".into()))
-        });
-    }
-
-    /// The number of the group's material.
-    fn material(
-        &mut self,
-        group: &Group,
-        section: &'static str,
-        names: &HashMap<&str, usize>,
-    ) -> usize {
-        let value = self.of(group, section, "material");
-        let name = value.text();
-        if let Some(number) = names.get(name) {
-            return *number;
-        }
-        let written = group
-            .entry("material")
-            .is_some_and(|entry| entry.value.is_some());
-        if written && self.whole {
-            self.faults.add(group.origin("material"), || {
-                let known = || names.keys().copied();
-                let note = match nearest(name, known()) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None if names.is_empty() => {
-                        format!("write a table [materials.{}]", short(name))
-                    }
-                    None => format!("the materials are {}", listed(known().collect())),
-                };
-                (format!("unknown material `{}`", short(name)), Some(note))
-            });
-        }
-        0
-    }
-
     /// Every knob's value by its path, as records carry them.
     fn record(&self, strategy: Option<&Value>) -> serde_json::Map<String, serde_json::Value> {
         let mut record = serde_json::Map::new();
@@ -377,18 +265,4 @@ impl Builder<'_, '_, '_> {
         }
         record
     }
-}
-
-/// The first of some names, in order.
-fn listed(mut names: Vec<&str>) -> String {
-    const MOST: usize = 12;
-    names.sort_unstable();
-    let more = names.len().saturating_sub(MOST);
-    let shown: Vec<_> = names.iter().take(MOST).map(|name| short(name)).collect();
-    let tail = if more > 0 {
-        format!(" and {more} more")
-    } else {
-        String::new()
-    };
-    shown.join(", ") + &tail
 }

@@ -80,35 +80,20 @@ impl<'a> Faults<'a> {
 
     /// The findings in the order of the file, those of the command line last.
     pub(crate) fn finish(mut self) -> Mistakes {
-        let (name, text) = (self.name, self.text);
         self.drop_echoes();
-        let flags_only = (self.kept.iter()).all(|fault| matches!(fault.origin, Origin::Flag(_)));
-        let usage = flags_only && self.total == self.kept.len();
-        let total = self.total;
-        let findings: Vec<_> = self.kept.iter().take(SHOWN).map(|f| self.show(f)).collect();
-        let mut page: String = if usage {
-            let line = |f: &Finding| f.text.trim_start_matches("error: ").trim_end().to_string();
-            findings.iter().map(line).collect::<Vec<_>>().join("\n")
-        } else {
-            findings
-                .iter()
-                .map(|f| format!("{}\n", f.text.trim_end()))
-                .collect::<Vec<_>>()
-                .join("\n")
-        };
-        if !usage {
-            if total > findings.len() {
-                page += &format!("\n... and {} more\n", total - findings.len());
-            }
-            let errors = if total == 1 { "error" } else { "errors" };
-            page += &format!("\n{total} {errors} in {name}");
-        }
-        let _ = text;
+        let flag = |fault: &Fault| matches!(fault.origin, Origin::Flag(_));
+        let usage = self.total == self.kept.len() && self.kept.iter().all(flag);
+        let shown = self.kept.iter().take(SHOWN);
+        let findings: Vec<_> = shown.map(|fault| self.show(fault)).collect();
         Mistakes {
-            findings,
-            total,
-            page,
+            page: if usage {
+                lines(&findings)
+            } else {
+                page(&findings, self.total, self.name)
+            },
+            total: self.total,
             usage,
+            findings,
         }
     }
 
@@ -184,6 +169,26 @@ impl<'a> Faults<'a> {
             text,
         }
     }
+}
+
+/// Mistakes of the command line, one a line.
+fn lines(findings: &[Finding]) -> String {
+    let line = |finding: &Finding| finding.text.trim_end().replacen("error: ", "", 1);
+    findings.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Mistakes of the file, each with its line, and how many there are.
+fn page(findings: &[Finding], total: usize, name: &str) -> String {
+    let mut page = String::new();
+    for finding in findings {
+        page += finding.text.trim_end();
+        page += "\n\n";
+    }
+    if total > findings.len() {
+        page += &format!("... and {} more\n\n", total - findings.len());
+    }
+    let errors = if total == 1 { "error" } else { "errors" };
+    page + &format!("{total} {errors} in {name}")
 }
 
 /// Why there is no scene.

@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Snippet, render};
 use super::load::without_mark;
-use super::read::Places;
+use super::places::Places;
 use super::solid::Solid;
 use super::{Material, Scene};
 use crate::knobs::{InterruptionRule, InterruptionWeight, short};
@@ -54,8 +54,8 @@ struct Warning {
 }
 
 impl Warning {
-    fn show(self, name: &str, text: &str, places: &Places) -> Finding {
-        let span = places.tables.get(&self.table).cloned();
+    fn show(self, name: &str, text: &str, places: &Places<'_>) -> Finding {
+        let span = places.find(&self.table);
         let snippet = span.map(|span| Snippet::new(name, text, span));
         let text = render(
             Severity::Warning,

@@ -11,7 +11,9 @@ mod faults;
 mod finding;
 mod lint;
 mod load;
+mod places;
 mod read;
+mod shapes;
 mod solid;
 
 pub use assign::Assignment;

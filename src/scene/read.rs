@@ -2,20 +2,16 @@
 
 use super::draft::{Draft, Entry, Group};
 use super::faults::{Faults, Origin};
-use crate::knobs::{Knob, REPEATED, a, in_section, nearest, sections, short};
-use std::collections::HashMap;
+use crate::knobs::{KNOBS, Knob, REPEATED, a, in_section, nearest, sections, short};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
 /// Spheres and boxes together.
 pub const MOST_PRIMITIVES: usize = 1 << 20;
 /// Longer texts are searched for their first syntax error only: each further one costs memory.
 const RECOVERED: usize = 1 << 20;
 
-type Keyed<'t, 's> = (
-    &'t Spanned<toml::de::DeString<'s>>,
-    &'t Spanned<DeValue<'s>>,
-);
+type Key<'s> = Spanned<DeString<'s>>;
 
 /// Reads the text of a scene file; what is wrong with it goes to `faults`. The flag says whether
 /// all of the text is TOML, so that nothing of it is lost.
@@ -61,7 +57,7 @@ fn parse<'t>(text: &'t str, faults: &mut Faults<'_>) -> Option<DeTable<'t>> {
 }
 
 /// A table's entries in the order in which they were written.
-fn ordered<'t, 's>(table: &'t DeTable<'s>) -> Vec<Keyed<'t, 's>> {
+fn ordered<'t, 's>(table: &'t DeTable<'s>) -> Vec<(&'t Key<'s>, &'t Spanned<DeValue<'s>>)> {
     let mut entries: Vec<_> = table.iter().collect();
     entries.sort_by_key(|(key, _)| key.span().start);
     entries
@@ -99,12 +95,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn top(
-        &mut self,
-        key: &Spanned<toml::de::DeString<'_>>,
-        value: &Spanned<DeValue<'_>>,
-        draft: &mut Draft,
-    ) {
+    fn top(&mut self, key: &Key<'_>, value: &Spanned<DeValue<'_>>, draft: &mut Draft) {
         let name = key.get_ref().as_ref();
         if name == "version" {
             return;
@@ -119,21 +110,20 @@ impl Reader<'_, '_> {
             _ => {
                 let origin = Origin::File(value.span());
                 draft.headers.push((section, origin));
-                self.group(section, section, value, &mut draft.singles);
+                self.group(section, value, &mut draft.singles);
             }
         }
     }
 
-    fn unknown_top(&mut self, key: &Spanned<toml::de::DeString<'_>>) {
+    fn unknown_top(&mut self, key: &Key<'_>) {
         let name = key.get_ref().as_ref();
         self.faults.add(Origin::File(key.span()), || {
             let known = sections();
             let near = nearest(name, known.iter().copied().chain(["version"]));
-            let note = match (near, owner(name)) {
-                (Some(near), _) => format!("did you mean `{near}`?"),
-                (None, Some(knob)) => format!("did you mean `{}`?", knob.path),
-                (None, None) => format!("a scene holds version, {}", known.join(", ")),
-            };
+            let keys = KNOBS.iter().map(Knob::key);
+            let elsewhere = nearest(name, keys).and_then(owner).map(|knob| knob.path);
+            let note = suggestion([near, elsewhere.filter(|_| near.is_none())])
+                .unwrap_or_else(|| format!("a scene holds version, {}", known.join(", ")));
             (format!("unknown key `{}`", short(name)), Some(note))
         });
     }
@@ -155,8 +145,7 @@ impl Reader<'_, '_> {
                     .add(Origin::File(key.span()), || (message, None));
             }
             let mut group = Group::new(name, Origin::File(value.span()));
-            let path = format!("materials.{}", group.name);
-            self.group("materials", &path, value, &mut group);
+            self.group("materials", value, &mut group);
             draft.materials.push(group);
         }
     }
@@ -171,18 +160,19 @@ impl Reader<'_, '_> {
         };
         let room = MOST_PRIMITIVES - self.primitives;
         if let Some(first) = items.get(room) {
+            // Nothing else is said of such a list: a million faults would hide this one.
             self.faults.add(Origin::File(first.span()), || {
                 let message = format!("more than {MOST_PRIMITIVES} spheres and boxes");
                 (message, Some("a scene holds 2^20 of them at most".into()))
             });
+            return;
         }
-        self.primitives += items.len().min(room);
+        self.primitives += items.len();
         let list = draft.list(section);
-        list.reserve(items.len().min(room));
-        for (number, item) in items.iter().take(room).enumerate() {
+        list.reserve(items.len());
+        for (number, item) in items.iter().enumerate() {
             let mut group = Group::new(number.to_string(), Origin::File(item.span()));
-            let path = format!("{section}.{number}");
-            self.group(section, &path, item, &mut group);
+            self.group(section, item, &mut group);
             list.push(group);
         }
     }
@@ -197,45 +187,35 @@ impl Reader<'_, '_> {
         });
     }
 
-    /// Reads the knobs of one table; `path` is where it stands, for messages.
-    fn group(
-        &mut self,
-        section: &'static str,
-        path: &str,
-        value: &Spanned<DeValue<'_>>,
-        group: &mut Group,
-    ) {
+    /// Reads the knobs of one table.
+    fn group(&mut self, section: &'static str, value: &Spanned<DeValue<'_>>, group: &mut Group) {
         let DeValue::Table(table) = value.get_ref() else {
+            let path = path(section, group);
             let wanted = match section {
                 "spheres" | "boxes" => format!("a table: write [[{section}]]"),
-                _ => format!("a table: write [{}]", short(path)),
+                _ => format!("a table: write [{}]", short(&path)),
             };
-            self.wrong_shape(value, path, &wanted);
+            self.wrong_shape(value, &path, &wanted);
             return;
         };
         for (key, value) in ordered(table) {
             let name = key.get_ref().as_ref();
             match in_section(section).find(|knob| knob.key() == name) {
-                Some(knob) => self.entry(knob, path, value, group),
-                None => self.unknown(section, path, key),
+                Some(knob) => self.entry(knob, value, group),
+                None => self.unknown(section, group, key),
             }
         }
     }
 
-    fn entry(
-        &mut self,
-        knob: &'static Knob,
-        path: &str,
-        value: &Spanned<DeValue<'_>>,
-        group: &mut Group,
-    ) {
+    fn entry(&mut self, knob: &'static Knob, value: &Spanned<DeValue<'_>>, group: &mut Group) {
         let origin = Origin::File(value.span());
         let value = match knob.read(value) {
             Ok(value) => Some(value),
             Err(refusal) => {
-                let path = format!("{}.{}", short(path), knob.key());
                 self.faults.add(Origin::File(refusal.span), || {
-                    (format!("`{path}` {}", refusal.reason), refusal.note)
+                    let path = short(&path(knob.section(), group));
+                    let message = format!("`{path}.{}` {}", knob.key(), refusal.reason);
+                    (message, refusal.note)
                 });
                 None
             }
@@ -247,24 +227,43 @@ impl Reader<'_, '_> {
         });
     }
 
-    fn unknown(&mut self, section: &str, path: &str, key: &Spanned<toml::de::DeString<'_>>) {
+    fn unknown(&mut self, section: &'static str, group: &Group, key: &Key<'_>) {
         let name = key.get_ref().as_ref();
         self.faults.add(Origin::File(key.span()), || {
             let known: Vec<_> = in_section(section).map(Knob::key).collect();
-            let note = match (nearest(name, known.iter().copied()), owner(name)) {
-                (Some(near), _) => format!("did you mean `{near}`?"),
-                (None, Some(knob)) => format!("did you mean `{}`?", knob.path),
-                (None, None) => format!("the keys here are {}", known.join(", ")),
-            };
-            let message = format!("unknown key `{}` in `{}`", short(name), short(path));
+            let near = nearest(name, known.iter().copied());
+            let elsewhere = owner(name).map(|knob| knob.path);
+            let note = suggestion([near, elsewhere])
+                .unwrap_or_else(|| format!("the keys here are {}", known.join(", ")));
+            let path = short(&path(section, group));
+            let message = format!("unknown key `{}` in `{path}`", short(name));
             (message, Some(note))
         });
     }
 }
 
+/// Where a group stands, for messages.
+fn path(section: &str, group: &Group) -> String {
+    if group.name.is_empty() {
+        section.into()
+    } else {
+        format!("{section}.{}", group.name)
+    }
+}
+
 /// The knob of another table that has this key.
 fn owner(key: &str) -> Option<&'static Knob> {
-    crate::knobs::KNOBS.iter().find(|knob| knob.key() == key)
+    KNOBS.iter().find(|knob| knob.key() == key)
+}
+
+fn suggestion(names: [Option<&str>; 2]) -> Option<String> {
+    match names {
+        [Some(one), Some(two)] if one != two => {
+            Some(format!("did you mean `{one}`, or the knob `{two}`?"))
+        }
+        [Some(one), _] | [None, Some(one)] => Some(format!("did you mean `{one}`?")),
+        [None, None] => None,
+    }
 }
 
 /// Why a material cannot have this name, if it cannot.
@@ -279,37 +278,4 @@ fn bad_name(name: &str) -> Option<&'static str> {
     let unusable = |c: char| c == '=' || c.is_control();
     name.contains(unusable)
         .then_some("must not hold `=` or control characters")
-}
-
-/// Where each material, sphere, box and table stands, for warnings.
-#[derive(Debug, Default)]
-pub(crate) struct Places {
-    pub(crate) tables: HashMap<String, std::ops::Range<usize>>,
-}
-
-impl Places {
-    pub(crate) fn of(text: &str) -> Self {
-        let mut tables = HashMap::new();
-        let Ok(root) = DeTable::parse(text) else {
-            return Self::default();
-        };
-        for (section, value) in root.get_ref() {
-            let section = section.get_ref();
-            tables.insert(section.to_string(), value.span());
-            match value.get_ref() {
-                DeValue::Table(table) => {
-                    for (key, value) in table {
-                        tables.insert(format!("{section}.{}", key.get_ref()), value.span());
-                    }
-                }
-                DeValue::Array(items) => {
-                    for (number, item) in items.iter().enumerate() {
-                        tables.insert(format!("{section}.{number}"), item.span());
-                    }
-                }
-                _ => {}
-            }
-        }
-        Self { tables }
-    }
 }
