@@ -2,8 +2,8 @@
 
 use super::moments::{PictureMean, narrow};
 use super::parts::{Part, SAMPLES, check_disjoint, compare};
-use crate::device::DeviceInfo;
 use super::{Picture, Record};
+use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Whether pictures are parts of one render.
 
-use crate::device::DeviceInfo;
 use super::{Picture, Record, read_exr, read_record};
+use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use serde_json::Value;
 use std::path::{Path, PathBuf};

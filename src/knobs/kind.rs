@@ -4,10 +4,10 @@ use glam::DVec3;
 use std::borrow::Cow;
 use std::fmt;
 
-/// The largest size a number may have: it fits 32-bit floats with room for a few sums.
-pub const LARGEST: f64 = 1e30;
-/// The smallest number that counts as positive; 32-bit floats lose digits below 1.2e-38.
-pub const SMALLEST: f64 = 1e-30;
+/// The largest size a number may have: squares and areas of it still fit 32-bit floats.
+pub const LARGEST: f64 = 1e12;
+/// The smallest number that counts as positive: squares of it are normal 32-bit floats.
+pub const SMALLEST: f64 = 1e-12;
 
 /// What a knob takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,9 +74,13 @@ impl Range {
         }
         let shown = shown(number);
         Err(if number.abs() > LARGEST {
-            format!("must be at most {LARGEST:e} in size to fit 32-bit floats, not {shown}")
+            format!(
+                "must be at most {LARGEST:e} in size so that 32-bit floats neither overflow nor vanish, not {shown}"
+            )
         } else if self.least == SMALLEST && number > 0.0 {
-            format!("must be at least {SMALLEST:e} to fit 32-bit floats, not {shown}")
+            format!(
+                "must be at least {SMALLEST:e} so that 32-bit floats neither overflow nor vanish, not {shown}"
+            )
         } else {
             format!("must be {self}, not {shown}")
         })

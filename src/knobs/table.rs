@@ -133,7 +133,7 @@ pub static KNOBS: &[Knob] = &[
 
     knob("render.samples", integer(1, 2_147_483_647), "paths", whole(64), "paths a pixel"),
     knob("render.seed", integer(0, u64::MAX), "", whole(0), "seed of the random numbers, 64 bits"),
-    knob("render.max_bounces", integer(0, 65535), "reflections", whole(8), "reflections a path may make: 0 is emission alone, 1 adds direct light"),
+    knob("render.max_bounces", integer(0, 1_000_000), "reflections", whole(8), "reflections a path may make: 0 is emission alone, 1 adds direct light"),
     knob("render.clamp", OptionalNumber(Range::POSITIVE), "radiance",
         Presets([Value::Number(1.0), Value::Off, Value::Off, Value::Off]), "the largest radiance that a sample may have in a channel"),
     knob("render.preset", Name(Preset::NAMES), "", Default(text("reference")), "the set of sampling knobs to start from"),

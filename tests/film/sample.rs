@@ -3,7 +3,8 @@
 // Each test file uses a part of these.
 #![allow(dead_code)]
 
-use lampray::film::{Aov, Device, DeviceKind, Features, Film, Picture, Record, Seconds};
+use lampray::device::{DeviceInfo, DeviceKind};
+use lampray::film::{Aov, Features, Film, Picture, Record, Seconds};
 use lampray::pack::{Feature, Rect, Tally};
 use serde_json::{Map, json};
 use std::path::{Path, PathBuf};
@@ -113,8 +114,8 @@ fn features() -> Vec<Feature> {
     (0..REGION.area()).map(feature).collect()
 }
 
-pub fn device(name: &str) -> Device {
-    Device {
+pub fn device(name: &str) -> DeviceInfo {
+    DeviceInfo {
         kind: DeviceKind::Software,
         name: name.into(),
         driver: "22.3.6 (\"LLVM\" 15)".into(),
