@@ -19,7 +19,12 @@ use std::process::ExitCode;
 
 /// A headless path tracer for studying how light is sampled.
 #[derive(Parser)]
-#[command(name = "lampray", version, max_term_width = 100)]
+#[command(
+    name = "lampray",
+    version,
+    max_term_width = 100,
+    after_help = "Example:\n  lampray render scenes/cornell.toml     writes cornell.png and cornell.exr"
+)]
 struct Lampray {
     #[command(subcommand)]
     command: Command,
@@ -89,7 +94,10 @@ fn report_panic(panic: &panic::PanicHookInfo) {
     let place = panic
         .location()
         .map_or(String::new(), |place| format!(" at {place}"));
-    let cause = panic.payload_as_str().unwrap_or("unknown cause");
+    let payload = panic.payload();
+    let text = payload.downcast_ref::<&str>().copied();
+    let text = text.or(payload.downcast_ref::<String>().map(String::as_str));
+    let cause = text.unwrap_or("unknown cause");
     note(&format!(
         "lampray: {}",
         Error::Internal(format!("{cause}{place}"))
