@@ -87,7 +87,7 @@ pub fn sphere_and_ray(place: usize, stream: &mut Stream) -> ProbeInput {
 pub fn box_and_ray(place: usize, stream: &mut Stream) -> ProbeInput {
     let scale = stream.scale(1e-3, 1e3);
     let half = [0; 3].map(|_| (scale * stream.scale(0.01, 1.0)) as f32);
-    let reach = if place % 4 == 0 { 0.99 } else { 20.0 };
+    let reach = if place.is_multiple_of(4) { 0.99 } else { 20.0 };
     let origin = half.map(|h| (f64::from(h) * stream.between(-reach, reach)) as f32);
     let inner = half.map(|h| f64::from(h) * stream.between(-1.2, 1.2));
     let aim: [f64; 3] = std::array::from_fn(|i| inner[i] - f64::from(origin[i]));
@@ -118,7 +118,7 @@ pub fn arrival(place: usize, stream: &mut Stream) -> ([f32; 3], [f32; 3]) {
 /// A lamp and an origin: outside from near to far, inside, or on it.
 pub fn lamp_and_origin(place: usize, stream: &mut Stream) -> (ProbeInput, bool) {
     let radius = stream.scale(1e-2, 1e2);
-    let inside = place % 4 == 0;
+    let inside = place.is_multiple_of(4);
     let away = match place % 4 {
         0 => stream.between(0.0, 0.999),
         1 => stream.between(1.00001, 1.01),
