@@ -207,11 +207,14 @@ fn arrival() -> (DVec3, DVec3) {
     )
 }
 
+/// Density by the cosine to the normal.
+type Law = fn(f64) -> f64;
+
 fn diffuse(law: ScatterDiffuse) -> Sampling {
     let (normal, incoming) = arrival();
     let even = |out: f64| if out >= 0.0 { 1.0 / TAU } else { 0.0 };
     let cosine = |out: f64| out.max(0.0) / PI;
-    let (density, mutant): (fn(f64) -> f64, fn(f64) -> f64) = match law {
+    let (density, mutant): (Law, Law) = match law {
         ScatterDiffuse::Cosine => (cosine, |out| {
             if out >= 0.0 {
                 0.95 * out / PI + 0.05 / TAU

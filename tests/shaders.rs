@@ -122,7 +122,7 @@ fn resolve(
     module: &naga::Module,
     info: &ModuleInfo,
     constants: &naga::back::PipelineConstants,
-) -> Result<naga::Module, PipelineConstantError> {
+) -> Result<naga::Module, Box<PipelineConstantError>> {
     let entry = Some((naga::ShaderStage::Compute, "main"));
     let (resolved, _) = process_overrides(module, info, entry, constants)?;
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
