@@ -10,6 +10,8 @@ pub mod film;
 pub mod gpu;
 pub mod knobs;
 pub mod pack;
+pub mod place;
+pub mod points;
 pub mod render;
 pub mod scene;
 pub mod shader;

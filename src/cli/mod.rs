@@ -5,7 +5,9 @@ mod devices;
 mod knobs;
 mod merge;
 mod options;
+mod points;
 mod render;
+mod rerun;
 mod run;
 
 use crate::error::{Error, Result};
@@ -40,6 +42,8 @@ enum Command {
     Check(check::Command),
     Knobs(knobs::Command),
     Devices(devices::Command),
+    Points(points::Command),
+    Rerun(rerun::Command),
     Merge(merge::Command),
 }
 
@@ -51,6 +55,8 @@ pub fn main() -> ExitCode {
         Command::Check(command) => command.run(line.output),
         Command::Knobs(command) => command.run(line.output),
         Command::Devices(command) => command.run(line.output),
+        Command::Points(command) => command.run(line.output),
+        Command::Rerun(command) => command.run(line.output),
         Command::Merge(command) => command.run(line.output),
     };
     match outcome {

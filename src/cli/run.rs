@@ -72,7 +72,7 @@ impl Run<'_> {
         Record {
             version: env!("CARGO_PKG_VERSION").into(),
             scene: self.scene.source.name.clone(),
-            scene_hash: blake3::hash(self.scene.source.text.as_bytes()).to_hex()[..16].into(),
+            scene_hash: scene_hash(&self.scene.source.text),
             shader_hash: crate::shader::library_hash(),
             preset: settings.preset.to_string(),
             knobs: self.scene.knobs.clone(),
@@ -110,6 +110,11 @@ impl Run<'_> {
             .film
             .picture(record, features, Some(self.scene.source.text.clone()))
     }
+}
+
+/// Identifies a scene's text in records.
+pub(crate) fn scene_hash(text: &str) -> String {
+    blake3::hash(text.as_bytes()).to_hex()[..16].into()
 }
 
 /// A bar on a terminal, nothing elsewhere.

@@ -183,7 +183,7 @@ struct Results {
 struct Loaded {
     packed: Packed,
     arrays: SceneArrays,
-    buffers: [wgpu::Buffer; 4],
+    buffers: Vec<wgpu::Buffer>,
 }
 
 /// A graphics device that traces.
@@ -368,10 +368,15 @@ impl Device for Gpu {
             padded(&scene.boxes, arrays.boxes),
             padded(&scene.lamps, arrays.lamps),
         ];
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE;
-        let [materials, spheres, boxes, lamps] =
-            bytes.map(|bytes| self.guard.filled(&bytes, usage));
-        let buffers = [materials?, spheres?, boxes?, lamps?];
+        let guard = &self.guard;
+        let buffers = if arrays.is_uniform() {
+            vec![guard.filled(&bytes.concat(), wgpu::BufferUsages::UNIFORM)?]
+        } else {
+            let filled = bytes
+                .iter()
+                .map(|bytes| guard.filled(bytes, wgpu::BufferUsages::STORAGE));
+            filled.collect::<Result<_>>()?
+        };
         self.loaded = Some(Loaded {
             packed: scene.clone(),
             arrays,
