@@ -186,6 +186,19 @@ struct Loaded {
     buffers: [wgpu::Buffer; 4],
 }
 
+impl Loaded {
+    /// The buffers of group 0. A binding that holds nothing comes after a uniform buffer, and that
+    /// will do for it too.
+    fn bindings(&self) -> Vec<&wgpu::Buffer> {
+        let mut last = 0;
+        let buffer = |place: Option<usize>| {
+            last = place.unwrap_or(last);
+            &self.buffers[last]
+        };
+        self.arrays.bindings().into_iter().map(buffer).collect()
+    }
+}
+
 /// A graphics device that traces.
 #[derive(Debug)]
 pub struct Gpu {
@@ -291,7 +304,7 @@ impl Gpu {
             .map(|(bytes, usage)| guard.filled(bytes, *usage))
             .collect::<Result<_>>()?;
         let scene_buffers: Vec<_> = match &self.loaded {
-            Some(loaded) if scene => loaded.buffers.iter().collect(),
+            Some(loaded) if scene => loaded.bindings(),
             _ => Vec::new(),
         };
         let scene_group = guard.bind(&pipeline.scene_layout, &scene_buffers)?;

@@ -65,15 +65,14 @@ fn layout(device: &wgpu::Device, kinds: impl Iterator<Item = Binding>) -> wgpu::
     })
 }
 
-/// The kinds of the scene's arrays, in the order of their bindings.
+/// The kinds of group 0's bindings, in order.
 pub fn scene_bindings(arrays: SceneArrays) -> impl Iterator<Item = Binding> {
-    arrays.list().into_iter().map(|(_, _, length, bytes)| {
-        if SceneArrays::is_uniform(length, bytes) {
-            Binding::Uniform
-        } else {
-            Binding::Read
-        }
-    })
+    let list = arrays.list();
+    let kind = move |place: Option<usize>| match place.map(|place| list[place]) {
+        Some((_, _, length, bytes)) if !SceneArrays::is_uniform(length, bytes) => Binding::Read,
+        _ => Binding::Uniform,
+    };
+    arrays.bindings().into_iter().map(kind)
 }
 
 impl Pipeline {

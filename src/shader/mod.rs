@@ -96,18 +96,40 @@ impl SceneArrays {
         length * bytes <= UNIFORM_BYTES
     }
 
+    /// What each binding of group 0 holds: an array, by its place in the list, or nothing.
+    ///
+    /// The fourth uniform buffer of a kernel is one that no shader declares. Mesa's software driver (22.3)
+    /// notes which members of uniform buffer b, counted from 1, decide branches; it writes them at words
+    /// 32 b of a table that has 4 words for each of 32 buffers. Those of the fourth land on the
+    /// counts right behind the table, and the first dispatch crashes; those of the fifth and sixth land
+    /// on fields that only graphics pipelines use.
+    pub fn bindings(&self) -> Vec<Option<usize>> {
+        let mut bindings = Vec::new();
+        let mut uniforms = 0;
+        for (place, (_, _, length, bytes)) in self.list().into_iter().enumerate() {
+            bindings.push(Some(place));
+            uniforms += usize::from(Self::is_uniform(length, bytes));
+            if uniforms == 3 && !bindings.contains(&None) {
+                bindings.push(None);
+            }
+        }
+        bindings
+    }
+
     /// The declarations of bind group 0.
     fn declarations(&self) -> String {
-        let line =
-            |(binding, (name, element, length, bytes)): (usize, (&str, &str, usize, usize))| {
-                let place = format!("@group(0) @binding({binding})");
-                if Self::is_uniform(length, bytes) {
-                    format!("{place} var<uniform> {name}: array<{element}, {length}>;\n")
-                } else {
-                    format!("{place} var<storage, read> {name}: array<{element}>;\n")
-                }
-            };
-        self.list().into_iter().enumerate().map(line).collect()
+        let list = self.list();
+        let line = |(binding, place): (usize, Option<usize>)| {
+            let (name, element, length, bytes) = list[place?];
+            let place = format!("@group(0) @binding({binding})");
+            Some(if Self::is_uniform(length, bytes) {
+                format!("{place} var<uniform> {name}: array<{element}, {length}>;\n")
+            } else {
+                format!("{place} var<storage, read> {name}: array<{element}>;\n")
+            })
+        };
+        let bindings = self.bindings().into_iter().enumerate();
+        bindings.filter_map(line).collect()
     }
 }
 
