@@ -114,11 +114,11 @@ fn the_gate_rejects_biased_settings() {
                 .set("light.weight", "solid-angle")
                 .set("light.weight_radius", 0.19),
             literal.set("interruption.rule", "survival"),
-            with("spheres.2.radius", "0.202"),
-            with("materials.satin.albedo", "[0.9, 0.5625, 0.7875]"),
-            with("render.max_bounces", "3"),
+            with("spheres.2.radius", "0.204"),
+            with("materials.satin.albedo", "[0.92, 0.575, 0.805]"),
+            with("render.max_bounces", "2"),
             with("render.clamp", "5"),
-            with("materials.floor.albedo", "[0.714, 0.612, 0.51]"),
+            with("materials.floor.albedo", "[0.735, 0.63, 0.525]"),
             with("render.preset", "paper"),
             with("render.preset", "montelight"),
         ];

@@ -170,7 +170,7 @@ fn every_sampler_and_strategy_gives_the_form_factor() {
                 if *sampler == "cone" || lamp.half <= WIDEST_FOR_AREA {
                     family.check(bench, &case.clone().set("light.strategy", "sample"));
                 }
-                if (n + s + bench as usize) % 2 == 0 {
+                if (n + s + bench as usize).is_multiple_of(2) {
                     family.check(bench, &case.clone().set("light.strategy", "mis"));
                 }
                 if n % 4 == s && lamp.factor() >= LEAST_FOR_HITS {

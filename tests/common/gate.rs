@@ -264,6 +264,10 @@ impl Family {
         let caught = made.iter().any(|one| one.fault == Some(Fault::Apart));
         let lines: Vec<_> = made.iter().map(Comparison::to_string).collect();
         assert!(caught, "the gate let a mutant pass:\n{}", lines.join("\n"));
+        let z = made.iter().map(|one| one.z().abs().min(9999.0));
+        let z = z.fold(0.0, f64::max);
+        let (name, sets) = (&self.name, mutant.sets.join(" "));
+        println!("{name}: rejected on {bench:?} with |z| {z:.1}: {sets}");
     }
 
     /// Says how many comparisons there were, and fails with all that did not pass.
