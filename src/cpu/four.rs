@@ -56,7 +56,9 @@ impl FourRay {
         let own = self.source.cmpeq(body);
         let outside = near.cmpgt(Vec4::ZERO) & !own;
         let distance = Vec4::select(outside, near, far);
-        Vec4::select(met & !(own & !self.inside), distance, Vec4::NEG_ONE)
+        let kept = Vec4::select(own, distance.max(Vec4::splat(1e-30)), distance);
+        let found = (own & self.inside) | (!own & met);
+        Vec4::select(found, kept, Vec4::NEG_ONE)
     }
 }
 
@@ -92,7 +94,7 @@ impl Spheres {
             std::array::from_fn(|axis| from_center[axis] + b * ray.direction[axis]);
         let discriminant = self.radius * self.radius - dot(nearest, nearest);
         let met = discriminant.cmpge(Vec4::ZERO);
-        if !met.any() {
+        if !(met | ray.inside).any() {
             return Vec4::NEG_ONE;
         }
         let c = dot(from_center, from_center) - self.radius * self.radius;
