@@ -35,7 +35,7 @@ fn scene_files() -> Vec<PathBuf> {
     files
 }
 
-fn load(file: &PathBuf, side: u32, preset: Preset, more: &[&str]) -> Scene {
+fn load(file: &std::path::Path, side: u32, preset: Preset, more: &[&str]) -> Scene {
     let size = [
         format!("image.width={side}"),
         format!("image.height={side}"),

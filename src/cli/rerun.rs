@@ -97,8 +97,8 @@ fn region_of(image: &Path, record: &Record, scene: &Scene) -> Result<Rect> {
 /// The range of samples, where it is one.
 fn whole_range(image: &Path, record: &Record) -> Result<[u64; 2]> {
     match record.ranges().as_slice() {
-        &[[first, end]] if first < end && end <= 1 << 63 => Ok([first, end]),
-        &[_] => damaged(image, "its range of samples is empty".into()),
+        [[first, end]] if first < end && *end <= 1 << 63 => Ok([*first, *end]),
+        [_] => damaged(image, "its range of samples is empty".into()),
         _ => damaged(
             image,
             "it was merged from ranges with gaps: render those one by one".into(),

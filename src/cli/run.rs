@@ -1,6 +1,7 @@
 //! What `render` and `rerun` share: from a scene to files and a record.
 
 use super::options::DeviceOptions;
+use super::signal::Watch;
 use super::{Output, note, print};
 use crate::error::Result;
 use crate::film::{Aov, Features, Film, Picture, Record, Seconds, Target, name_outputs};
@@ -39,10 +40,15 @@ impl Run<'_> {
         };
         let opening = started.elapsed();
         let bar = progress_bar(output, self.scene);
+        let signals = Watch::new();
         let mut watch = |progress: Progress| {
             bar.set_length(progress.total);
             bar.set_position(progress.paths);
-            ControlFlow::Continue(())
+            if signals.stopped() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         };
         let rendering = render::render(chosen.device.as_mut(), &task, &mut watch)?;
         bar.finish_and_clear();
@@ -81,8 +87,8 @@ impl Run<'_> {
             width: self.region.width(),
             height: self.region.height(),
             crop: crop.map(|rect| [rect.x0, rect.y0, rect.x1, rect.y1]),
-            samples: self.samples.end - self.samples.start,
-            sample_range: [self.samples.start, self.samples.end],
+            samples: rendering.film.counts.iter().copied().min().unwrap_or(0),
+            sample_range: taken(self.samples.start, &rendering.film),
             sample_ranges: Vec::new(),
             seed: settings.render.seed,
             complete: rendering.complete,
@@ -110,6 +116,14 @@ impl Run<'_> {
             .film
             .picture(record, features, Some(self.scene.source.text.clone()))
     }
+}
+
+/// The samples that some pixel has: a render that was stopped may have given some more than others.
+fn taken(first: u64, film: &Film) -> [u64; 2] {
+    [
+        first,
+        first + film.counts.iter().copied().max().unwrap_or(0),
+    ]
 }
 
 /// Identifies a scene's text in records.
@@ -144,9 +158,14 @@ fn warn_non_finite(film: &Film) {
 
 /// One line on what was made: files, size, samples, speed, device.
 fn summary(record: &Record) -> String {
+    let state = if record.complete {
+        ""
+    } else {
+        " (stopped early)"
+    };
     let speed = record.paths as f64 / record.seconds.render.max(1e-9) / 1e6;
     format!(
-        "{}: {}x{}, {} samples a pixel in {:.2} s ({speed:.2} Msamples/s) on {}",
+        "{}: {}x{}, {} samples a pixel{state} in {:.2} s ({speed:.2} Msamples/s) on {}",
         record.outputs.join(", "),
         record.width,
         record.height,

@@ -8,5 +8,5 @@ mod pieces;
 mod pipeline;
 
 pub use adapter::{Adapters, adapters};
-pub use device::Gpu;
+pub use device::{Gpu, catching};
 pub use pipeline::{Binding, bindings, binds_scene, scene_bindings};
