@@ -11,7 +11,7 @@ use lampray::pack::{Feature, Packed};
 use lampray::render::{Task, render, whole};
 use lampray::scene::{Assignment, Scene};
 use std::ops::{ControlFlow, Range};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use support::chance::binomial_at_least;
 
 const SIDE: u32 = 24;
