@@ -1,6 +1,7 @@
 //! One graphics device: buffers, dispatches, and every way in which it can fail.
 
 use super::adapter::Adapters;
+use super::pieces::{Allowance, Gathered, pieces};
 use super::pipeline::Pipeline;
 use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
@@ -201,6 +202,7 @@ struct Results {
 #[derive(Debug)]
 struct Loaded {
     packed: Packed,
+    allowance: Allowance,
     arrays: SceneArrays,
     buffers: Vec<wgpu::Buffer>,
 }
@@ -278,7 +280,9 @@ impl Gpu {
             .is_none_or(|results| results.bytes < bytes)
         {
             self.results = None;
-            let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+            let storage = wgpu::BufferUsages::STORAGE
+                | wgpu::BufferUsages::COPY_SRC
+                | wgpu::BufferUsages::COPY_DST;
             let staging = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
             self.results = Some(Results {
                 storage: self.guard.buffer(bytes, storage)?,
@@ -316,6 +320,8 @@ impl Gpu {
         let pass_group = guard.bind(&pipeline.pass_layout, &pass_buffers)?;
         let commands = guard.scoped(|device| {
             let mut encoder = device.create_command_encoder(&Default::default());
+            // What a lane does not write reads as zero, not as a result of another dispatch.
+            encoder.clear_buffer(&results.storage, 0, Some(bytes));
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 pass.set_pipeline(&pipeline.pipeline);
@@ -334,6 +340,36 @@ impl Gpu {
         self.loaded
             .as_ref()
             .ok_or_else(|| Error::Internal("no scene is loaded".into()))
+    }
+
+    /// Traces samples in one dispatch whose lanes take at most `steps` steps.
+    fn trace_piece(
+        &mut self,
+        rect: Rect,
+        first_sample: u64,
+        samples: u32,
+        steps: u32,
+    ) -> Result<Vec<Tally>> {
+        let loaded = self.scene()?;
+        let mut job = loaded.packed.job(rect, first_sample, samples);
+        job.steps = job.steps.min(steps);
+        let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
+        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
+        let count = rect.area() * runs(first_sample, samples) as usize;
+        let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
+        let tallies: Vec<Tally> = self.dispatch(&pipeline, true, &inputs, tiles(rect), count)?;
+        // Every sample takes a ray: a tally without one was never written.
+        match tallies.iter().all(|tally| tally.rays > 0) {
+            true => Ok(tallies),
+            false => Err(self.cut_short("a path took too many steps")),
+        }
+    }
+
+    fn cut_short(&self, what: &str) -> Error {
+        Error::Device(format!(
+            "the device {} stops a kernel after 65,535 loop iterations, and {what}; use --device cpu or a smaller scene or render.max_bounces",
+            self.info.name
+        ))
     }
 
     /// Runs a library function over a list of inputs, for tests.
@@ -378,6 +414,10 @@ impl Device for Gpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
+        let allowance = Allowance::new(self.info.kind, scene).ok_or_else(|| {
+            let bodies = scene.spheres.len() + scene.boxes.len();
+            self.cut_short(&format!("{bodies} bodies are more than it goes through"))
+        })?;
         let arrays = SceneArrays::new(scene);
         let bytes = [
             padded(&scene.materials, arrays.materials),
@@ -396,6 +436,7 @@ impl Device for Gpu {
         };
         self.loaded = Some(Loaded {
             packed: scene.clone(),
+            allowance,
             arrays,
             buffers,
         });
@@ -414,13 +455,13 @@ impl Device for Gpu {
     }
 
     fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let loaded = self.scene()?;
-        let job = loaded.packed.job(rect, first_sample, samples);
-        let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
-        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
-        let count = rect.area() * runs(first_sample, samples) as usize;
-        let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
+        let allowance = self.scene()?.allowance;
+        let mut gathered = Gathered::new(rect.area());
+        for (first, count) in pieces(first_sample, samples, allowance.samples) {
+            let tallies = self.trace_piece(rect, first, count, allowance.steps)?;
+            gathered.add(first, count, &tallies);
+        }
+        Ok(gathered.tallies)
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
