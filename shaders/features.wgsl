@@ -27,7 +27,7 @@ fn feature_at(film: vec2<f32>) -> Feature {
         return Feature(vec3<f32>(0.0), 0.0, vec3<f32>(0.0), 0u);
     }
     let surface = surface_at(hit, ray);
-    return Feature(surface.normal, hit.distance, materials[surface.material].albedo, surface.id);
+    return Feature(surface.normal, hit.distance, material_at(surface.material).albedo, surface.id);
 }
 
 @compute @workgroup_size(8, 8)

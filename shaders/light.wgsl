@@ -144,16 +144,8 @@ fn sample_cone(lamp: Lamp, cone: Cone, u: vec2<f32>) -> LightSample {
     return LightSample(direction, distance, weight, inverse_density);
 }
 
-// `inside`: whether `origin` is inside the lamp.
-// With the weight `pdf` a point counts when it is itself seen. With `solid-angle` it counts when
-// the lamp is the first body in its direction, as in the base code, so far-side points count too
-// and the shadow ray need only reach the near side.
-fn sample_light(lamp: Lamp, pole: Basis, origin: vec3<f32>, inside: bool, u: vec4<f32>) -> LightSample {
-    let cone = lamp_cone(lamp, origin);
-    if LIGHT_SAMPLER == LIGHT_SAMPLER_CONE && cone.open && !inside {
-        return sample_cone(lamp, cone, u.xy);
-    }
-    let axes = light_pole(pole, cone);
+// A direction to a point that the lamp's surface is drawn at.
+fn sample_area(lamp: Lamp, axes: Basis, origin: vec3<f32>, inside: bool, u: vec4<f32>) -> LightSample {
     let outward = sample_surface(axes, u);
     let to_point = lamp.center + lamp.radius * outward - origin;
     let distance = length(to_point);
@@ -166,6 +158,21 @@ fn sample_light(lamp: Lamp, pole: Basis, origin: vec3<f32>, inside: bool, u: vec
         return LightSample(direction, near, solid_angle_weight(lamp.weight_radius, distance), inverse_density);
     }
     return LightSample(direction, distance, inverse_density, inverse_density);
+}
+
+// `inside`: whether `origin` is inside the lamp.
+// With the weight `pdf` a point counts when it is itself seen. With `solid-angle` it counts when
+// the lamp is the first body in its direction, as in the base code, so far-side points count too
+// and the shadow ray need only reach the near side.
+fn sample_light(lamp: Lamp, pole: Basis, origin: vec3<f32>, inside: bool, u: vec4<f32>) -> LightSample {
+    let cone = lamp_cone(lamp, origin);
+    var sample = LightSample();
+    if LIGHT_SAMPLER == LIGHT_SAMPLER_CONE && cone.open && !inside {
+        sample = sample_cone(lamp, cone, u.xy);
+    } else {
+        sample = sample_area(lamp, light_pole(pole, cone), origin, inside, u);
+    }
+    return sample;
 }
 
 // Inverse density with which `sample_light` draws the unit `direction`, which meets the lamp at

@@ -1,8 +1,9 @@
 // The scene as every kernel that traces it sees it: nearest hit, any hit, and what was hit.
 //
-// The one library that reads bindings: group 0 is the scene. The host declares its arrays, as
-// uniform buffers where they are small and as storage buffers where they are not. Boxes come with
-// the unrotated ones first. A body is a sphere or a box, counted from 1 in that order.
+// The one library that reads bindings: group 0 is the scene. The host prints them, as one uniform
+// buffer where the scene is small and as storage buffers where it is not, with the functions that
+// read them: material_at, sphere_at, box_at and lamp_at. Boxes come with the unrotated ones first.
+// A body is a sphere or a box, counted from 1 in that order.
 
 // #import maths
 // #import ray
@@ -44,21 +45,21 @@ fn rotated_box_crossing(shape: Box, ray: Ray) -> Crossing {
 fn nearest_hit(ray: Ray) -> Hit {
     var best = Hit(3e38, 0u);
     for (var i = 0u; i < SPHERE_COUNT; i++) {
-        let distance = first_distance(intersect_sphere(spheres[i].center, spheres[i].radius, ray), ray, i + 1u);
+        let distance = first_distance(intersect_sphere(sphere_at(i).center, sphere_at(i).radius, ray), ray, i + 1u);
         let closer = distance > 0.0 && distance < best.distance;
         best = Hit(select(best.distance, distance, closer), select(best.body, i + 1u, closer));
     }
     let inverse = safe_inverse(ray.direction);
     for (var i = 0u; i < BOX_COUNT; i++) {
         let body = SPHERE_COUNT + i + 1u;
-        let crossing = intersect_box(boxes[i].half_size, ray.origin - boxes[i].center, inverse);
+        let crossing = intersect_box(box_at(i).half_size, ray.origin - box_at(i).center, inverse);
         let distance = first_distance(crossing, ray, body);
         let closer = distance > 0.0 && distance < best.distance;
         best = Hit(select(best.distance, distance, closer), select(best.body, body, closer));
     }
     for (var i = BOX_COUNT; i < BOX_COUNT + ROTATED_BOX_COUNT; i++) {
         let body = SPHERE_COUNT + i + 1u;
-        let distance = first_distance(rotated_box_crossing(boxes[i], ray), ray, body);
+        let distance = first_distance(rotated_box_crossing(box_at(i), ray), ray, body);
         let closer = distance > 0.0 && distance < best.distance;
         best = Hit(select(best.distance, distance, closer), select(best.body, body, closer));
     }
@@ -69,25 +70,25 @@ fn nearest_hit(ray: Ray) -> Hit {
 fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
     var blocked = false;
     for (var i = 0u; i < SPHERE_COUNT; i++) {
-        let distance = first_distance(intersect_sphere(spheres[i].center, spheres[i].radius, ray), ray, i + 1u);
+        let distance = first_distance(intersect_sphere(sphere_at(i).center, sphere_at(i).radius, ray), ray, i + 1u);
         blocked = blocked || (distance > 0.0 && distance < reach && i + 1u != target_body);
     }
     let inverse = safe_inverse(ray.direction);
     for (var i = 0u; i < BOX_COUNT; i++) {
-        let crossing = intersect_box(boxes[i].half_size, ray.origin - boxes[i].center, inverse);
+        let crossing = intersect_box(box_at(i).half_size, ray.origin - box_at(i).center, inverse);
         let distance = first_distance(crossing, ray, SPHERE_COUNT + i + 1u);
         blocked = blocked || (distance > 0.0 && distance < reach);
     }
     for (var i = BOX_COUNT; i < BOX_COUNT + ROTATED_BOX_COUNT; i++) {
-        let distance = first_distance(rotated_box_crossing(boxes[i], ray), ray, SPHERE_COUNT + i + 1u);
+        let distance = first_distance(rotated_box_crossing(box_at(i), ray), ray, SPHERE_COUNT + i + 1u);
         blocked = blocked || (distance > 0.0 && distance < reach);
     }
     return blocked;
 }
 
 fn sphere_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
-    let center = spheres[index].center;
-    let radius = spheres[index].radius;
+    let center = sphere_at(index).center;
+    let radius = sphere_at(index).radius;
     let outward = sphere_normal(center, ray.origin + hit.distance * ray.direction);
     let crossing = intersect_sphere(center, radius, ray);
     let inside = ray.source == hit.body || crossing.near <= 0.0;
@@ -95,8 +96,8 @@ fn sphere_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
     return Surface(
         center + radius * outward,
         select(outward, -outward, inside),
-        spheres[index].material,
-        spheres[index].lamp,
+        sphere_at(index).material,
+        sphere_at(index).lamp,
         hit.body,
         inside,
         index + 1u,
@@ -104,7 +105,7 @@ fn sphere_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
 }
 
 fn box_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
-    let shape = boxes[index];
+    let shape = box_at(index);
     let origin = box_local(shape, ray.origin - shape.center);
     let direction = box_local(shape, ray.direction);
     let crossing = intersect_box(shape.half_size, origin, safe_inverse(direction));

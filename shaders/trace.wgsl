@@ -81,7 +81,7 @@ fn lamp_hit_weight(path: Path, surface: Surface, distance: f32) -> f32 {
     if LIGHT_STRATEGY == LIGHT_STRATEGY_SAMPLE {
         return 0.0;
     }
-    let lamp = lamps[surface.lamp - 1u];
+    let lamp = lamp_at(surface.lamp - 1u);
     let outward = select(surface.normal, -surface.normal, surface.inside);
     let inverse_density = light_inverse_density(
         lamp, job.pole, path.ray.origin, surface.inside, path.ray.direction, distance, outward);
@@ -89,7 +89,7 @@ fn lamp_hit_weight(path: Path, surface: Surface, distance: f32) -> f32 {
 }
 
 fn emitted(path: Path, surface: Surface, distance: f32) -> vec3<f32> {
-    let emission = materials[surface.material].emission;
+    let emission = material_at(surface.material).emission;
     if !emission_counts(path) || largest(emission) == 0.0 {
         return vec3<f32>(0.0);
     }
@@ -102,7 +102,7 @@ fn emitted(path: Path, surface: Surface, distance: f32) -> vec3<f32> {
 // What one lamp sends to a surface and the surface sends on along the path, by one shadow ray
 // from `origin`, a point just off the surface.
 fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: vec4<f32>) -> DirectLight {
-    let material = materials[surface.material];
+    let material = material_at(surface.material);
     let incoming = path.ray.direction;
     let own = surface.body == lamp.body;
     let inside = select(distance(lamp.center, origin) < lamp.radius, surface.inside, own);
@@ -142,7 +142,7 @@ fn direct_light(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight 
     let lamp_count = select(0u, LAMP_COUNT, job.samples > 0u);
     for (var i = 0u; i < lamp_count; i++) {
         let u = random_unit(path.key, path.vertex + 1u, i + 1u);
-        let one = light_from(lamps[i], path, surface, origin, u);
+        let one = light_from(lamp_at(i), path, surface, origin, u);
         sum = DirectLight(sum.radiance + one.radiance, sum.rays + one.rays);
     }
     return sum;
@@ -155,7 +155,7 @@ fn last_ray_counts(scattered: Scattered) -> bool {
 
 // The ray that scattering at a surface makes of the path; the path ends where it carries nothing.
 fn scatter_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, u: vec2<f32>) {
-    let scattered = sample_scatter(materials[surface.material], surface.normal, (*path).ray.direction, u);
+    let scattered = sample_scatter(material_at(surface.material), surface.normal, (*path).ray.direction, u);
     (*path).throughput *= scattered.weight;
     (*path).density = scattered.density;
     (*path).ray = Ray(origin, scattered.direction, surface.body, surface.inside);
@@ -172,7 +172,7 @@ fn visit(path: ptr<function, Path>, surface: Surface, distance: f32) {
         (*path).alive = false;
         return;
     }
-    let material = materials[surface.material];
+    let material = material_at(surface.material);
     let u = random_unit((*path).key, (*path).vertex + 1u, 0u);
     let tested = INTERRUPTION_RULE != INTERRUPTION_RULE_NONE && (*path).vertex >= job.interruption_start;
     let carried = (*path).throughput * material.albedo;

@@ -1,4 +1,54 @@
 //! A headless path tracer for studying how light is sampled.
+//!
+//! The renderer is written twice: as WGSL compute shaders, run through wgpu on any Vulkan, Metal or
+//! DX12 device, software drivers included; and as the [`cpu`] twin in Rust, which needs no driver.
+//! It implements Le Thi Kim Nga et al., "A sampling technique for light display" (2021), as
+//! published and with unbiased weights.
+//!
+//! # The way of the data
+//!
+//! ```text
+//! scene.toml ─parse→ Scene ─Packed::new→ flat buffers ─┬→ gpu (shaders/*.wgsl) ─┐
+//!            knobs ↗         Task ─Plan→ blocks ───────┴→ cpu (the twin) ───────┴→ Film → Picture → EXR, PNG + record
+//! ```
+//!
+//! One direction: a room knows the rooms before it, never those after it.
+//!
+//! | room | what lives there |
+//! |---|---|
+//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` alone reads group 0) |
+//! | [`knobs`] | the one table of knobs, the presets, the typed settings |
+//! | [`scene`] | the scene's types, the TOML parser with places, the checks |
+//! | [`pack`] | a scene as `#[repr(C)]` buffers and a strategy of override constants |
+//! | [`shader`] | joins the WGSL files, prints constants from the Rust enums, parses and validates |
+//! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
+//! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
+//! | [`film`] | sums in f64, EXR, PNG, run record, merge |
+//! | [`points`] | the samplers alone, as data or as a plot |
+//! | [`place`] | files that are whole or not there |
+//! | [`cli`] | one file a command, each a thin face over the library |
+//!
+//! # The life of a sample
+//!
+//! 1. A sample has an address: seed, pixel, sample index. `random.wgsl` hashes it into a key, and the
+//!    key with a dimension (vertex, slot) into four numbers. There is no other state: crops, sample
+//!    ranges and splits draw the same numbers.
+//! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
+//!    hit (`scene`, `sphere`, `box`), emission, one shadow ray to each lamp (`light`), the
+//!    interruption test (`interruption`), the next direction (`scatter`).
+//! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
+//!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
+//!    on how the work was split.
+//!
+//! # How to add
+//!
+//! - **A knob**: a row in `knobs/table.rs`, a field in [`knobs::Settings`].
+//! - **A light sampler**: a name in [`knobs::LightSampler`], its sample and inverse density in
+//!   `shaders/light.wgsl` and `src/cpu/light.rs`, and its chi-square case in the tests. The naga tests
+//!   fail until both sides agree.
+//! - **A scattering**: a name in [`knobs::Scatter`]; sample, evaluate and density in `scatter` of both
+//!   twins; fields in [`pack::Material`].
+//! - **A kernel**: a file in `shaders/`, a name in [`shader::Kernel`] and in `shader/library.rs`.
 
 #![forbid(unsafe_code)]
 
@@ -10,6 +60,8 @@ pub mod film;
 pub mod gpu;
 pub mod knobs;
 pub mod pack;
+pub mod place;
+pub mod points;
 pub mod render;
 pub mod scene;
 pub mod shader;

@@ -5,17 +5,26 @@ mod devices;
 mod knobs;
 mod merge;
 mod options;
+mod points;
 mod render;
+mod rerun;
 mod run;
+mod signal;
 
 use crate::error::{Error, Result};
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, Write};
+use std::panic;
 use std::process::ExitCode;
 
 /// A headless path tracer for studying how light is sampled.
 #[derive(Parser)]
-#[command(name = "lampray", version, max_term_width = 100)]
+#[command(
+    name = "lampray",
+    version,
+    max_term_width = 100,
+    after_help = "Example:\n  lampray render scenes/cornell.toml     writes cornell.png and cornell.exr"
+)]
 struct Lampray {
     #[command(subcommand)]
     command: Command,
@@ -40,22 +49,19 @@ enum Command {
     Check(check::Command),
     Knobs(knobs::Command),
     Devices(devices::Command),
+    Points(points::Command),
+    Rerun(rerun::Command),
     Merge(merge::Command),
 }
 
 /// Runs the program and says with which code it ends.
 pub fn main() -> ExitCode {
+    panic::set_hook(Box::new(report_panic));
     let line = Lampray::parse();
-    let outcome = match line.command {
-        Command::Render(command) => command.run(line.output),
-        Command::Check(command) => command.run(line.output),
-        Command::Knobs(command) => command.run(line.output),
-        Command::Devices(command) => command.run(line.output),
-        Command::Merge(command) => command.run(line.output),
-    };
+    let outcome = panic::catch_unwind(move || run(line));
     match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
+        Ok(Ok(())) => signal::exit_code(),
+        Ok(Err(error)) => {
             match &error {
                 // It is text of many lines already, each mistake with its place.
                 Error::Scene(page) => note(page),
@@ -63,8 +69,43 @@ pub fn main() -> ExitCode {
             }
             ExitCode::from(code(&error))
         }
+        // The hook has said what there is to say.
+        Err(_) => ExitCode::from(INTERNAL),
     }
 }
+
+fn run(line: Lampray) -> Result<()> {
+    match line.command {
+        Command::Render(command) => command.run(line.output),
+        Command::Check(command) => command.run(line.output),
+        Command::Knobs(command) => command.run(line.output),
+        Command::Devices(command) => command.run(line.output),
+        Command::Points(command) => command.run(line.output),
+        Command::Rerun(command) => command.run(line.output),
+        Command::Merge(command) => command.run(line.output),
+    }
+}
+
+/// One line instead of Rust's own. A driver's panic that the GPU code catches is not reported.
+fn report_panic(panic: &panic::PanicHookInfo) {
+    if crate::gpu::catching() {
+        return;
+    }
+    let place = panic
+        .location()
+        .map_or(String::new(), |place| format!(" at {place}"));
+    let payload = panic.payload();
+    let text = payload.downcast_ref::<&str>().copied();
+    let text = text.or(payload.downcast_ref::<String>().map(String::as_str));
+    let cause = text.unwrap_or("unknown cause");
+    note(&format!(
+        "lampray: {}",
+        Error::Internal(format!("{cause}{place}"))
+    ));
+}
+
+/// Exit code of a fault of lampray's own.
+const INTERNAL: u8 = 70;
 
 /// Puts data on stdout. A reader that has gone, such as `head`, is no error.
 pub(crate) fn print(text: &str) -> Result<()> {
@@ -93,7 +134,7 @@ fn code(error: &Error) -> u8 {
         Error::Scene(_) | Error::Data { .. } => 65,
         Error::Input { .. } => 66,
         Error::Device(_) => 69,
-        Error::Internal(_) => 70,
+        Error::Internal(_) => INTERNAL,
         Error::Create { .. } => 73,
         Error::Write { .. } => 74,
         Error::DeviceLost(_) => 75,

@@ -74,16 +74,25 @@ enum Require {
 #[derive(Args, Clone, Debug)]
 pub(crate) struct DeviceOptions {
     /// auto, cpu, gpu, software, a number or part of a name from `lampray devices`, or pci:ADDRESS
-    #[arg(long, default_value = "auto", value_name = "WHICH")]
-    device: String,
+    /// [default: auto]
+    #[arg(long, value_name = "WHICH")]
+    device: Option<String>,
     /// Fail rather than use another kind of device
     #[arg(long, value_name = "KIND")]
     require: Option<Require>,
 }
 
 impl DeviceOptions {
+    /// These options, with another device where none is asked for.
+    pub(crate) fn or(self, device: &str) -> Self {
+        Self {
+            device: self.device.or_else(|| Some(device.into())),
+            ..self
+        }
+    }
+
     pub(crate) fn open(&self) -> Result<Chosen> {
-        let request: DeviceRequest = self.device.parse()?;
+        let request: DeviceRequest = self.device.as_deref().unwrap_or("auto").parse()?;
         let require = self.require.map(|kind| match kind {
             Require::Hardware => DeviceKind::Hardware,
             Require::Software => DeviceKind::Software,

@@ -1,6 +1,7 @@
 //! What `render` and `rerun` share: from a scene to files and a record.
 
 use super::options::DeviceOptions;
+use super::signal::Watch;
 use super::{Output, note, print};
 use crate::error::Result;
 use crate::film::{Aov, Features, Film, Picture, Record, Seconds, Target, name_outputs};
@@ -39,10 +40,15 @@ impl Run<'_> {
         };
         let opening = started.elapsed();
         let bar = progress_bar(output, self.scene);
+        let signals = Watch::new();
         let mut watch = |progress: Progress| {
             bar.set_length(progress.total);
             bar.set_position(progress.paths);
-            ControlFlow::Continue(())
+            if signals.stopped() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         };
         let rendering = render::render(chosen.device.as_mut(), &task, &mut watch)?;
         bar.finish_and_clear();
@@ -72,7 +78,7 @@ impl Run<'_> {
         Record {
             version: env!("CARGO_PKG_VERSION").into(),
             scene: self.scene.source.name.clone(),
-            scene_hash: blake3::hash(self.scene.source.text.as_bytes()).to_hex()[..16].into(),
+            scene_hash: scene_hash(&self.scene.source.text),
             shader_hash: crate::shader::library_hash(),
             preset: settings.preset.to_string(),
             knobs: self.scene.knobs.clone(),
@@ -81,8 +87,8 @@ impl Run<'_> {
             width: self.region.width(),
             height: self.region.height(),
             crop: crop.map(|rect| [rect.x0, rect.y0, rect.x1, rect.y1]),
-            samples: self.samples.end - self.samples.start,
-            sample_range: [self.samples.start, self.samples.end],
+            samples: rendering.film.counts.iter().copied().min().unwrap_or(0),
+            sample_range: taken(self.samples.start, &rendering.film),
             sample_ranges: Vec::new(),
             seed: settings.render.seed,
             complete: rendering.complete,
@@ -112,6 +118,19 @@ impl Run<'_> {
     }
 }
 
+/// The samples that some pixel has: a render that was stopped may have given some more than others.
+fn taken(first: u64, film: &Film) -> [u64; 2] {
+    [
+        first,
+        first + film.counts.iter().copied().max().unwrap_or(0),
+    ]
+}
+
+/// Identifies a scene's text in records.
+pub(crate) fn scene_hash(text: &str) -> String {
+    blake3::hash(text.as_bytes()).to_hex()[..16].into()
+}
+
 /// A bar on a terminal, nothing elsewhere.
 fn progress_bar(output: Output, scene: &Scene) -> ProgressBar {
     if output.quiet {
@@ -139,9 +158,14 @@ fn warn_non_finite(film: &Film) {
 
 /// One line on what was made: files, size, samples, speed, device.
 fn summary(record: &Record) -> String {
+    let state = if record.complete {
+        ""
+    } else {
+        " (stopped early)"
+    };
     let speed = record.paths as f64 / record.seconds.render.max(1e-9) / 1e6;
     format!(
-        "{}: {}x{}, {} samples a pixel in {:.2} s ({speed:.2} Msamples/s) on {}",
+        "{}: {}x{}, {} samples a pixel{state} in {:.2} s ({speed:.2} Msamples/s) on {}",
         record.outputs.join(", "),
         record.width,
         record.height,

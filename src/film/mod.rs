@@ -21,7 +21,6 @@ mod read;
 mod read_exr;
 mod read_png;
 mod record;
-mod temporary;
 mod text;
 mod write_exr;
 mod write_png;

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::shader::{Kernel, SceneArrays};
 use bytemuck::{Pod, Zeroable};
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,6 +16,24 @@ use std::time::Duration;
 
 /// No dispatch is planned to take over half a second; one that takes this long has hung.
 const TIMEOUT: Duration = Duration::from_secs(120);
+
+thread_local! {
+    /// Whether a panic of this thread would be caught and read as a lost device.
+    static CATCHING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether this thread is in a call of wgpu's whose panic is caught: nobody need be told of it.
+pub fn catching() -> bool {
+    CATCHING.get()
+}
+
+/// Runs a call that wgpu may panic in.
+fn catch<T>(call: impl FnOnce() -> T) -> std::thread::Result<T> {
+    let outer = CATCHING.replace(true);
+    let outcome = catch_unwind(AssertUnwindSafe(call));
+    CATCHING.set(outer);
+    outcome
+}
 
 /// A device whose every call is watched.
 #[derive(Debug)]
@@ -57,7 +76,7 @@ impl Guard {
 
     /// Runs a call that wgpu may panic in.
     fn caught<T>(&self, what: &str, call: impl FnOnce() -> T) -> Result<T> {
-        let outcome = catch_unwind(AssertUnwindSafe(call)).map_err(|_| self.lost_error(what))?;
+        let outcome = catch(call).map_err(|_| self.lost_error(what))?;
         if self.lost.load(Ordering::SeqCst) {
             return Err(self.lost_error(what));
         }
@@ -183,7 +202,7 @@ struct Results {
 struct Loaded {
     packed: Packed,
     arrays: SceneArrays,
-    buffers: [wgpu::Buffer; 4],
+    buffers: Vec<wgpu::Buffer>,
 }
 
 /// A graphics device that traces.
@@ -215,9 +234,7 @@ impl Gpu {
                 info.name
             ))
         };
-        let opened = catch_unwind(AssertUnwindSafe(|| {
-            pollster::block_on(adapter.request_device(&descriptor))
-        }));
+        let opened = catch(|| pollster::block_on(adapter.request_device(&descriptor)));
         let (device, queue) = opened
             .map_err(|_| refused("its driver failed".into()))?
             .map_err(|error| refused(error.to_string()))?;
@@ -368,10 +385,15 @@ impl Device for Gpu {
             padded(&scene.boxes, arrays.boxes),
             padded(&scene.lamps, arrays.lamps),
         ];
-        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE;
-        let [materials, spheres, boxes, lamps] =
-            bytes.map(|bytes| self.guard.filled(&bytes, usage));
-        let buffers = [materials?, spheres?, boxes?, lamps?];
+        let guard = &self.guard;
+        let buffers = if arrays.is_uniform() {
+            vec![guard.filled(&bytes.concat(), wgpu::BufferUsages::UNIFORM)?]
+        } else {
+            let filled = bytes
+                .iter()
+                .map(|bytes| guard.filled(bytes, wgpu::BufferUsages::STORAGE));
+            filled.collect::<Result<_>>()?
+        };
         self.loaded = Some(Loaded {
             packed: scene.clone(),
             arrays,

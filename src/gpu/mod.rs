@@ -7,4 +7,4 @@ mod device;
 mod pipeline;
 
 pub use adapter::{Adapters, adapters};
-pub use device::Gpu;
+pub use device::{Gpu, catching};

@@ -65,15 +65,13 @@ fn layout(device: &wgpu::Device, kinds: impl Iterator<Item = Binding>) -> wgpu::
     })
 }
 
-/// The kinds of the scene's arrays, in the order of their bindings.
-pub fn scene_bindings(arrays: SceneArrays) -> impl Iterator<Item = Binding> {
-    arrays.list().into_iter().map(|(_, _, length, bytes)| {
-        if SceneArrays::is_uniform(length, bytes) {
-            Binding::Uniform
-        } else {
-            Binding::Read
-        }
-    })
+/// The bindings of group 0 in the kernels that trace: the scene, whole or array by array.
+pub fn scene_bindings(arrays: SceneArrays) -> Vec<Binding> {
+    if arrays.is_uniform() {
+        vec![Binding::Uniform]
+    } else {
+        vec![Binding::Read; arrays.list().len()]
+    }
 }
 
 impl Pipeline {
@@ -90,8 +88,8 @@ impl Pipeline {
         let joined = shader::source(kernel, arrays)?;
         let module = shader::parse(&joined)?;
         let constants = constants(&module, strategy);
-        let scene: Vec<_> = if binds_scene(kernel) {
-            scene_bindings(arrays).collect()
+        let scene = if binds_scene(kernel) {
+            scene_bindings(arrays)
         } else {
             Vec::new()
         };

@@ -56,58 +56,99 @@ pub struct SceneArrays {
     pub lamps: usize,
 }
 
+/// One array of the scene: the name of its accessor, its WGSL element type, its length, and the
+/// bytes of an element.
+#[derive(Clone, Copy, Debug)]
+pub struct SceneArray {
+    pub name: &'static str,
+    pub element: &'static str,
+    pub length: usize,
+    pub stride: usize,
+}
+
 impl SceneArrays {
-    /// The lengths that hold a scene. Uniform arrays grow in powers of two, so that scenes of
-    /// nearly one size share a shader; none is empty, since WGSL has no empty arrays.
+    /// The lengths that hold a scene. Small ones grow in powers of two, so that scenes of nearly one
+    /// size share a shader; none is empty, since WGSL has no empty arrays.
     pub fn new(packed: &Packed) -> Self {
-        let room = |count: usize, bytes: usize| {
-            let rounded = count.max(1).next_power_of_two();
-            if rounded * bytes <= UNIFORM_BYTES {
-                rounded
-            } else {
-                count
-            }
+        let lengths = |room: fn(usize) -> usize| Self {
+            materials: room(packed.materials.len()),
+            spheres: room(packed.spheres.len()),
+            boxes: room(packed.boxes.len()),
+            lamps: room(packed.lamps.len()),
         };
-        Self {
-            materials: room(packed.materials.len(), size_of::<pack::Material>()),
-            spheres: room(packed.spheres.len(), size_of::<pack::Sphere>()),
-            boxes: room(packed.boxes.len(), size_of::<pack::Cuboid>()),
-            lamps: room(packed.lamps.len(), size_of::<pack::Lamp>()),
+        let rounded = lengths(|count| count.max(1).next_power_of_two());
+        if rounded.is_uniform() {
+            rounded
+        } else {
+            lengths(|count| count.max(1))
         }
     }
 
-    /// Name, WGSL element type, length, element size in bytes, in the order of the bindings.
-    pub fn list(&self) -> [(&'static str, &'static str, usize, usize); 4] {
+    /// The arrays in the order in which they are bound or lie in the uniform buffer.
+    pub fn list(&self) -> [SceneArray; 4] {
+        let array = |name, element, length, stride| SceneArray {
+            name,
+            element,
+            length,
+            stride,
+        };
         [
-            (
-                "materials",
+            array(
+                "material_at",
                 "Material",
                 self.materials,
                 size_of::<pack::Material>(),
             ),
-            ("spheres", "Sphere", self.spheres, size_of::<pack::Sphere>()),
-            ("boxes", "Box", self.boxes, size_of::<pack::Cuboid>()),
-            ("lamps", "Lamp", self.lamps, size_of::<pack::Lamp>()),
+            array(
+                "sphere_at",
+                "Sphere",
+                self.spheres,
+                size_of::<pack::Sphere>(),
+            ),
+            array("box_at", "Box", self.boxes, size_of::<pack::Cuboid>()),
+            array("lamp_at", "Lamp", self.lamps, size_of::<pack::Lamp>()),
         ]
     }
 
-    /// Whether an array of this length and element size is a uniform buffer.
-    pub fn is_uniform(length: usize, bytes: usize) -> bool {
-        length * bytes <= UNIFORM_BYTES
+    /// Whether the whole scene is one uniform buffer. It is one and not four because lavapipe 22.3
+    /// crashes on kernels that bind more than four.
+    pub fn is_uniform(&self) -> bool {
+        let bytes: usize = self
+            .list()
+            .iter()
+            .map(|array| array.length * array.stride)
+            .sum();
+        bytes <= UNIFORM_BYTES
     }
 
-    /// The declarations of bind group 0.
+    /// Bind group 0 and the functions that read it: `sphere_at(i)` and the like.
     fn declarations(&self) -> String {
-        let line =
-            |(binding, (name, element, length, bytes)): (usize, (&str, &str, usize, usize))| {
-                let place = format!("@group(0) @binding({binding})");
-                if Self::is_uniform(length, bytes) {
-                    format!("{place} var<uniform> {name}: array<{element}, {length}>;\n")
-                } else {
-                    format!("{place} var<storage, read> {name}: array<{element}>;\n")
-                }
+        let accessor = |array: &SceneArray, place: &str| {
+            let SceneArray { name, element, .. } = array;
+            format!("fn {name}(index: u32) -> {element} {{\n    return {place}[index];\n}}\n")
+        };
+        if self.is_uniform() {
+            let member = |array: &SceneArray| {
+                format!(
+                    "    {}_: array<{}, {}>,\n",
+                    array.name, array.element, array.length
+                )
             };
-        self.list().into_iter().enumerate().map(line).collect()
+            let members: String = self.list().iter().map(member).collect();
+            let read = |array: &SceneArray| accessor(array, &format!("scene_data.{}_", array.name));
+            let readers: String = self.list().iter().map(read).collect();
+            return format!(
+                "struct SceneData {{\n{members}}}\n@group(0) @binding(0) var<uniform> scene_data: SceneData;\n{readers}"
+            );
+        }
+        let storage = |(binding, array): (usize, &SceneArray)| {
+            let SceneArray { name, element, .. } = array;
+            let variable = format!(
+                "@group(0) @binding({binding}) var<storage, read> {name}_: array<{element}>;\n"
+            );
+            variable + &accessor(array, &format!("{name}_"))
+        };
+        self.list().iter().enumerate().map(storage).collect()
     }
 }
 

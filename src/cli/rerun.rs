@@ -1,0 +1,122 @@
+use super::options::DeviceOptions;
+use super::run::Run;
+use super::{Output, Result, note};
+use crate::device::DeviceKind;
+use crate::error::Error;
+use crate::film::{Aov, Record, read_record};
+use crate::pack::Rect;
+use crate::render::whole;
+use crate::scene::{Assignment, Scene};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Render again from the record inside a picture
+///
+/// Takes the scene, every knob, the crop and the samples from the PNG or EXR. On the same device,
+/// driver and version the pixels are the same, byte for byte.
+#[derive(Args)]
+#[command(after_help = "Example:\n  lampray rerun cornell.png -o again.exr")]
+pub(crate) struct Command {
+    /// A PNG or EXR that lampray wrote
+    image: PathBuf,
+    /// Where to write; .png or .exr, may be given several times
+    #[arg(short, long = "output", required = true, value_name = "FILE")]
+    outputs: Vec<PathBuf>,
+    #[command(flatten)]
+    device: DeviceOptions,
+    /// Add layers of first hits to the EXR
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    aov: Vec<Aov>,
+}
+
+impl Command {
+    pub(crate) fn run(self, output: Output) -> Result<()> {
+        let (record, text) = read_record(&self.image)?;
+        let scene = scene_of(&self.image, &record, text)?;
+        if record.shader_hash != crate::shader::library_hash() && !output.quiet {
+            note(&format!(
+                "warning: {} was made by lampray {} with other shaders: the pixels may differ",
+                self.image.display(),
+                record.version
+            ));
+        }
+        let region = region_of(&self.image, &record, &scene)?;
+        let [first, end] = whole_range(&self.image, &record)?;
+        let device = device_of(&self.device, &record);
+        let (outputs, aovs) = (self.outputs, self.aov);
+        Run {
+            scene: &scene,
+            outputs,
+            region,
+            samples: first..end,
+            aovs,
+            device: &device,
+        }
+        .go(output)
+    }
+}
+
+/// The scene with every knob of the record laid over it.
+fn scene_of(image: &Path, record: &Record, text: Option<String>) -> Result<Scene> {
+    let text = match text {
+        Some(text) => text,
+        None => Scene::read_text(Path::new(&record.scene))?,
+    };
+    if super::run::scene_hash(&text) != record.scene_hash {
+        return damaged(
+            image,
+            format!("its scene {} has changed since", record.scene),
+        );
+    }
+    let knobs: Vec<_> = record
+        .knobs
+        .iter()
+        .map(|(path, value)| Assignment::from_record(path, value))
+        .collect();
+    let fault = |error: Error| match error {
+        Error::Knob(reason) => Error::Data {
+            path: image.into(),
+            reason,
+        },
+        other => other,
+    };
+    Scene::parse(&record.scene, &text, &knobs).map_err(fault)
+}
+
+fn region_of(image: &Path, record: &Record, scene: &Scene) -> Result<Rect> {
+    let all = whole(scene);
+    match record.crop {
+        None => Ok(all),
+        Some([x0, y0, x1, y1]) if x0 < x1 && y0 < y1 && x1 <= all.x1 && y1 <= all.y1 => {
+            Ok(Rect { x0, y0, x1, y1 })
+        }
+        Some(_) => damaged(image, "its crop lies outside its image".into()),
+    }
+}
+
+/// The range of samples, where it is one.
+fn whole_range(image: &Path, record: &Record) -> Result<[u64; 2]> {
+    match record.ranges().as_slice() {
+        [[first, end]] if first < end && *end <= 1 << 63 => Ok([*first, *end]),
+        [_] => damaged(image, "its range of samples is empty".into()),
+        _ => damaged(
+            image,
+            "it was merged from ranges with gaps: render those one by one".into(),
+        ),
+    }
+}
+
+fn damaged<T>(image: &Path, reason: String) -> Result<T> {
+    Err(Error::Data {
+        path: image.into(),
+        reason,
+    })
+}
+
+/// The device of the record where none is asked for: the CPU twin stays the CPU twin.
+fn device_of(asked: &DeviceOptions, record: &Record) -> DeviceOptions {
+    match record.device.kind {
+        DeviceKind::Cpu => asked.clone().or("cpu"),
+        DeviceKind::Software | DeviceKind::Hardware => asked.clone(),
+    }
+}
