@@ -137,10 +137,7 @@ fn direct_light(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight 
     if LIGHT_STRATEGY == LIGHT_STRATEGY_HIT {
         return sum;
     }
-    // Always LAMP_COUNT, but not known before the dispatch: Mesa 22's software driver crashes on small
-    // scenes whose only lamp lets it unroll this loop.
-    let lamp_count = select(0u, LAMP_COUNT, job.samples > 0u);
-    for (var i = 0u; i < lamp_count; i++) {
+    for (var i = 0u; i < LAMP_COUNT; i++) {
         let u = random_unit(path.key, path.vertex + 1u, i + 1u);
         let one = light_from(lamp_at(i), path, surface, origin, u);
         sum = DirectLight(sum.radiance + one.radiance, sum.rays + one.rays);
