@@ -8,3 +8,4 @@ mod pipeline;
 
 pub use adapter::{Adapters, adapters};
 pub use device::{Gpu, catching};
+pub use pipeline::{Binding, bindings, binds_scene, scene_bindings};

@@ -1,0 +1,92 @@
+//! Probabilities, for tests of what is random. All in f64.
+
+/// Share of a chi-square distribution with `freedom` degrees above `statistic`.
+pub fn chi_square_above(statistic: f64, freedom: f64) -> f64 {
+    gamma_above(0.5 * freedom, 0.5 * statistic)
+}
+
+/// Regularised upper incomplete gamma function Q(a, x): by its series below a + 1, by its continued
+/// fraction (Lentz) above.
+fn gamma_above(a: f64, x: f64) -> f64 {
+    if x <= 0.0 {
+        return 1.0;
+    }
+    let front = (a * x.ln() - x - libm::lgamma(a)).exp();
+    if x < a + 1.0 {
+        let (mut term, mut sum, mut n) = (1.0 / a, 1.0 / a, a);
+        while term > sum * 1e-16 {
+            n += 1.0;
+            term *= x / n;
+            sum += term;
+        }
+        return 1.0 - front * sum;
+    }
+    let mut b = x + 1.0 - a;
+    let (mut c, mut d) = (1e300, 1.0 / b);
+    let mut h = d;
+    for i in 1..100_000 {
+        let i = f64::from(i);
+        let an = -i * (i - a);
+        b += 2.0;
+        d = 1.0 / (an * d + b);
+        c = b + an / c;
+        h *= c * d;
+        if (c * d - 1.0).abs() < 1e-15 {
+            break;
+        }
+    }
+    front * h
+}
+
+/// The level of each of `tests` tests that keeps the chance of any false alarm at `level` (Sidak).
+pub fn sidak(level: f64, tests: usize) -> f64 {
+    1.0 - (1.0 - level).powf(1.0 / tests as f64)
+}
+
+/// What a chi-square test found.
+#[derive(Clone, Copy, Debug)]
+pub struct Fit {
+    pub statistic: f64,
+    pub freedom: f64,
+    pub p: f64,
+}
+
+/// Pearson's test of counts against expectations. Cells that expect too few are pooled, smallest
+/// first, until each pool expects at least 5.
+pub fn fit(observed: &[f64], expected: &[f64]) -> Fit {
+    let mut cells: Vec<_> = expected.iter().copied().zip(observed).collect();
+    cells.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut statistic, mut pools) = (0.0, 0);
+    let mut pool = (0.0, 0.0);
+    let mut rest: f64 = expected.iter().sum();
+    for (expects, &counted) in cells {
+        pool = (pool.0 + expects, pool.1 + counted);
+        rest -= expects;
+        if pool.0 >= 5.0 && (rest >= 5.0 || rest < 1e-9 * pool.0) {
+            statistic += (pool.1 - pool.0).powi(2) / pool.0;
+            pools += 1;
+            pool = (0.0, 0.0);
+        }
+    }
+    // What is left over expects next to nothing; if it was counted all the same, that shows.
+    statistic += (pool.1 - pool.0).powi(2) / pool.0.max(1e-3);
+    let freedom = f64::from(pools) - 1.0;
+    assert!(freedom >= 1.0, "too few cells to test");
+    Fit {
+        statistic,
+        freedom,
+        p: chi_square_above(statistic, freedom),
+    }
+}
+
+/// Chance that a binomial count is at least `count`.
+pub fn binomial_at_least(count: u64, trials: u64, p: f64) -> f64 {
+    let chance = |k: u64| {
+        let ways = libm::lgamma(trials as f64 + 1.0)
+            - libm::lgamma(k as f64 + 1.0)
+            - libm::lgamma((trials - k) as f64 + 1.0);
+        (ways + k as f64 * p.ln() + (trials - k) as f64 * (-p).ln_1p()).exp()
+    };
+    let below: f64 = (0..count).map(chance).sum();
+    (1.0 - below).max(0.0)
+}
