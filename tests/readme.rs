@@ -26,7 +26,10 @@ fn tables_are_those_of_the_program() {
     if std::env::var_os("UPDATE_README").is_some() {
         std::fs::write("README.md", &fresh).expect("README.md can be written");
     }
-    assert!(fresh == README, "README.md is out of date: UPDATE_README=1 cargo test --release --test readme");
+    assert!(
+        fresh == README,
+        "README.md is out of date: UPDATE_README=1 cargo test --release --test readme"
+    );
 }
 
 #[test]

@@ -289,7 +289,7 @@ impl<'a> Tracer<'a> {
 
 /// Sums of one run, as distances from its first sample.
 #[derive(Clone, Copy, Debug, Default)]
-struct Run {
+pub(crate) struct Run {
     first: Vec3,
     sum: Vec3,
     squares: Vec3,
@@ -323,7 +323,18 @@ impl Run {
         self.rays += rays;
     }
 
-    fn tally(&self) -> Tally {
+    /// Adds a sample that was traced alone.
+    pub(crate) fn add_tally(&mut self, one: &Tally) {
+        let finite = one.non_finite == 0;
+        let radiance = if finite {
+            Vec3::from(one.mean)
+        } else {
+            Vec3::NAN
+        };
+        self.add(radiance, one.rays, f32::MAX);
+    }
+
+    pub(crate) fn tally(&self) -> Tally {
         let shift = self.sum / self.samples as f32;
         let squares = (self.squares - self.sum * shift).max(Vec3::ZERO);
         Tally {

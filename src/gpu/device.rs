@@ -2,7 +2,8 @@
 
 use super::adapter::Adapters;
 use super::pipeline::Pipeline;
-use crate::device::{Device, DeviceInfo, runs};
+use crate::cpu::trace::Run;
+use crate::device::{Device, DeviceInfo, DeviceKind, run_ranges, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::shader::{Kernel, SceneArrays};
@@ -189,6 +190,10 @@ impl Guard {
     }
 }
 
+/// Mesa's software driver leaves every loop of a shader, without a word, once one group of lanes has
+/// been through this many iterations of all its loops together.
+const LLVMPIPE_ITERATIONS: u64 = 65_535;
+
 /// The buffers that results come back in; they grow with the largest block so far.
 #[derive(Debug)]
 struct Results {
@@ -330,6 +335,40 @@ impl Gpu {
         guard.read(&results.staging, bytes)
     }
 
+    /// The most samples of a pixel that one dispatch may take. With room for less than a run, samples
+    /// are always taken one by one: the way they are summed must not depend on how work was split.
+    fn most_samples(&self, scene: &Packed) -> u64 {
+        if self.info.kind != DeviceKind::Software {
+            return u64::MAX;
+        }
+        match LLVMPIPE_ITERATIONS / scene.iterations() {
+            few if few < u64::from(RUN_LENGTH) => few.min(1),
+            many => many,
+        }
+    }
+
+    /// One dispatch.
+    fn trace_once(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
+        let loaded = self.scene()?;
+        let job = loaded.packed.job(rect, first_sample, samples);
+        let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
+        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
+        let count = rect.area() * runs(first_sample, samples) as usize;
+        let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
+        self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
+    }
+
+    /// A run, or part of one, by a dispatch for each sample.
+    fn trace_one_by_one(&mut self, rect: Rect, first: u64, samples: u32) -> Result<Vec<Tally>> {
+        let mut sums = vec![Run::default(); rect.area()];
+        for sample in first..first + u64::from(samples) {
+            for (sum, one) in sums.iter_mut().zip(self.trace_once(rect, sample, 1)?) {
+                sum.add_tally(&one);
+            }
+        }
+        Ok(sums.iter().map(Run::tally).collect())
+    }
+
     fn scene(&self) -> Result<&Loaded> {
         self.loaded
             .as_ref()
@@ -378,6 +417,13 @@ impl Device for Gpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
+        if self.most_samples(scene) == 0 {
+            return Err(Error::Device(format!(
+                "the device {} may stop in the middle of this scene's longest paths ({} steps; it makes {LLVMPIPE_ITERATIONS}); use --device cpu, or a lower render.max_bounces or fewer lamps and shapes",
+                self.info.name,
+                scene.iterations()
+            )));
+        }
         let arrays = SceneArrays::new(scene);
         let bytes = [
             padded(&scene.materials, arrays.materials),
@@ -414,13 +460,19 @@ impl Device for Gpu {
     }
 
     fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let loaded = self.scene()?;
-        let job = loaded.packed.job(rect, first_sample, samples);
-        let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
-        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
-        let count = rect.area() * runs(first_sample, samples) as usize;
-        let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
+        let most = self.most_samples(&self.scene()?.packed);
+        if most >= u64::from(samples) {
+            return self.trace_once(rect, first_sample, samples);
+        }
+        let mut tallies = Vec::new();
+        for (first, count) in run_ranges(first_sample, samples) {
+            tallies.extend(if most >= u64::from(RUN_LENGTH) {
+                self.trace_once(rect, first, count)?
+            } else {
+                self.trace_one_by_one(rect, first, count)?
+            });
+        }
+        Ok(tallies)
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
