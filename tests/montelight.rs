@@ -388,6 +388,22 @@ fn compare(room: Room, rules: &Rules, samples: u64) -> Comparison {
     }
 }
 
+/// The light at the first hit by its formulas: the drawn point, its cone, its cosine.
+fn assert_first_light(packed: &Packed, pixel: [u32; 2], sample: u64, first: &Step) {
+    let key = random_key(words(packed.seed), pixel, words(sample));
+    let u = numbers(key, 1, 1);
+    let (polar, around) = (PI * u[1], 2.0 * PI * (u[0] - 0.5));
+    let drawn = DVec3::new(
+        50.0 + 8.5 * polar.sin() * around.cos(),
+        65.1 + 8.5 * polar.sin() * around.sin(),
+        81.6 + 8.5 * polar.cos(),
+    );
+    let far = drawn.distance(first.point);
+    let cosine = drawn.z / far;
+    let cone = 2.0 * PI * (1.0 - (1.0 - 1.5 * 1.5 / (far * far)).sqrt());
+    assert!((first.direct - 400.0 * cosine * cone / PI).abs() < 1e-12);
+}
+
 /// One path step by step: where it goes, what each hit adds, and why it ends. lampray's own steps
 /// show in what one more allowed bounce adds.
 #[test]
@@ -427,19 +443,8 @@ fn one_path_by_hand() {
             "{at}: {ours}"
         );
     }
-    // The first hit by its formulas: the drawn point, its cone, its cosine.
+    assert_first_light(&packed, PIXEL, SAMPLE, &steps[0]);
     let key = random_key(words(packed.seed), PIXEL, words(SAMPLE));
-    let u = numbers(key, 1, 1);
-    let (polar, around) = (PI * u[1], 2.0 * PI * (u[0] - 0.5));
-    let drawn = DVec3::new(
-        50.0 + 8.5 * polar.sin() * around.cos(),
-        65.1 + 8.5 * polar.sin() * around.sin(),
-        81.6 + 8.5 * polar.cos(),
-    );
-    let far = drawn.distance(steps[0].point);
-    let cosine = drawn.z / far;
-    let cone = 2.0 * PI * (1.0 - (1.0 - 1.5 * 1.5 / (far * far)).sqrt());
-    assert!((steps[0].direct - 400.0 * cosine * cone / PI).abs() < 1e-12);
     // Hits 5 and 6 pass the test against the largest colour, 0.75; hit 7 does not, and its light is lost.
     let tests = [5, 6, 7].map(|k| numbers(key, k + 1, 0)[2] < 0.75);
     assert_eq!(tests, [true, true, false]);
