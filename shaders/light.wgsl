@@ -93,7 +93,8 @@ fn sample_inverse_cosine(pole: Basis, u: vec2<f32>) -> vec3<f32> {
 
 // Case 3: three normal numbers (Box and Muller 1958) made a unit vector. Area density 1 / (4 pi r^2).
 fn sample_gaussian(u: vec4<f32>) -> vec3<f32> {
-    let radius = sqrt(-2.0 * log(1.0 - u.xy));
+    // A logarithm may be off by a little, and log(1) so be above zero.
+    let radius = vec2<f32>(root(-2.0 * log(1.0 - u.x)), root(-2.0 * log(1.0 - u.y)));
     let v = vec3<f32>(radius.x * unit_circle(u.z), radius.y * unit_circle(u.w).x);
     let size = dot(v, v);
     return select(vec3<f32>(0.0, 0.0, 1.0), v * inverseSqrt(greater(size, 1e-30)), size > 1e-30);

@@ -5,8 +5,9 @@ mod support;
 
 use glam::{DMat3, DVec3, Vec3};
 use lampray::cpu::Cpu;
+use lampray::cpu::four::Bodies;
 use lampray::cpu::ray::{Ray, offset_origin};
-use lampray::cpu::scene::{nearest_hit, surface_at};
+use lampray::cpu::scene::{Hit, surface_at};
 use lampray::cpu::sphere::intersect_sphere;
 use lampray::device::Device;
 use lampray::pack::{Cuboid, Packed, Rect, Sphere, Tally};
@@ -101,6 +102,10 @@ fn ray(from: DVec3, to: DVec3) -> Ray {
         source: 0,
         inside: false,
     }
+}
+
+fn nearest_hit(scene: &Packed, ray: &Ray) -> Hit {
+    lampray::cpu::scene::nearest_hit(&Bodies::new(scene), ray)
 }
 
 /// What became of rays that leave a surface they hit.

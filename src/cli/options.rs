@@ -91,6 +91,11 @@ impl DeviceOptions {
         }
     }
 
+    /// Whether any device will do.
+    pub(crate) fn any(&self) -> bool {
+        self.require.is_none() && self.device.as_deref().is_none_or(|device| device == "auto")
+    }
+
     pub(crate) fn open(&self) -> Result<Chosen> {
         let request: DeviceRequest = self.device.as_deref().unwrap_or("auto").parse()?;
         let require = self.require.map(|kind| match kind {

@@ -5,7 +5,7 @@ use crate::device::DeviceKind;
 use crate::error::Error;
 use crate::film::{Aov, Record, read_record};
 use crate::pack::Rect;
-use crate::render::whole;
+use crate::render::{scene_hash, whole};
 use crate::scene::{Assignment, Scene};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ fn scene_of(image: &Path, record: &Record, text: Option<String>) -> Result<Scene
         Some(text) => text,
         None => Scene::read_text(Path::new(&record.scene))?,
     };
-    if super::run::scene_hash(&text) != record.scene_hash {
+    if scene_hash(&text) != record.scene_hash {
         return damaged(
             image,
             format!("its scene {} has changed since", record.scene),

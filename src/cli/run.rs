@@ -3,8 +3,10 @@
 use super::options::DeviceOptions;
 use super::signal::Watch;
 use super::{Output, note, print};
-use crate::error::Result;
-use crate::film::{Aov, Features, Film, Picture, Record, Seconds, Target, name_outputs};
+use crate::cpu::Cpu;
+use crate::device::Device;
+use crate::error::{Error, Result};
+use crate::film::{Aov, Film, Record, Target, name_outputs};
 use crate::pack::Rect;
 use crate::render::{self, Progress, Rendering, Task};
 use crate::scene::Scene;
@@ -28,10 +30,7 @@ impl Run<'_> {
     pub(crate) fn go(self, output: Output) -> Result<()> {
         let started = Instant::now();
         let targets = Target::prepare_all(&self.outputs)?;
-        let mut chosen = self.device.open()?;
-        if let (Some(remark), false) = (&chosen.remark, output.quiet) {
-            note(&format!("lampray: {remark}"));
-        }
+        let mut device = self.open(output)?;
         let task = Task {
             scene: self.scene,
             region: self.region,
@@ -39,24 +38,23 @@ impl Run<'_> {
             features: !self.aovs.is_empty(),
         };
         let opening = started.elapsed();
-        let bar = progress_bar(output, self.scene);
-        let signals = Watch::new();
-        let mut watch = |progress: Progress| {
-            bar.set_length(progress.total);
-            bar.set_position(progress.paths);
-            if signals.stopped() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
+        let rendering = self.render(device.as_mut(), &task, output);
+        let rendering = match rendering {
+            // The device cannot take this scene. Where any will do there is one that can.
+            Err(Error::Device(reason)) if self.device.any() => {
+                remark(
+                    &format!("{reason}; rendering with the built-in CPU renderer"),
+                    output,
+                );
+                device = Box::new(Cpu::new());
+                self.render(device.as_mut(), &task, output)?
             }
+            outcome => outcome?,
         };
-        let rendering = render::render(chosen.device.as_mut(), &task, &mut watch)?;
-        bar.finish_and_clear();
-        let mut record = self.record(chosen.device.info(), &rendering);
-        name_outputs(&mut record, &targets);
-        record.seconds.setup += opening.as_secs_f64();
-        record.seconds.total = started.elapsed().as_secs_f64();
-        let picture = self.picture(&rendering, record);
+        let mut picture = render::picture(&task, device.info(), &rendering, &self.aovs);
+        name_outputs(&mut picture.record, &targets);
+        picture.record.seconds.setup += opening.as_secs_f64();
+        picture.record.seconds.total = started.elapsed().as_secs_f64();
         for target in targets {
             target.write(&picture)?;
         }
@@ -71,64 +69,37 @@ impl Run<'_> {
         }
     }
 
-    fn record(&self, device: &crate::device::DeviceInfo, rendering: &Rendering) -> Record {
-        let settings = &self.scene.settings;
-        let whole = render::whole(self.scene);
-        let crop = (self.region != whole).then_some(self.region);
-        Record {
-            version: env!("CARGO_PKG_VERSION").into(),
-            scene: self.scene.source.name.clone(),
-            scene_hash: scene_hash(&self.scene.source.text),
-            shader_hash: crate::shader::library_hash(),
-            preset: settings.preset.to_string(),
-            knobs: self.scene.knobs.clone(),
-            device: device.clone(),
-            devices: Vec::new(),
-            width: self.region.width(),
-            height: self.region.height(),
-            crop: crop.map(|rect| [rect.x0, rect.y0, rect.x1, rect.y1]),
-            samples: rendering.film.counts.iter().copied().min().unwrap_or(0),
-            sample_range: taken(self.samples.start, &rendering.film),
-            sample_ranges: Vec::new(),
-            seed: settings.render.seed,
-            complete: rendering.complete,
-            biased: settings.biased(),
-            seconds: Seconds {
-                setup: rendering.setup.as_secs_f64(),
-                render: rendering.tracing.as_secs_f64(),
-                total: 0.0,
-            },
-            paths: 0,
-            rays: 0,
-            non_finite: 0,
-            mean: [0.0; 3],
-            standard_error: [0.0; 3],
-            outputs: Vec::new(),
+    fn open(&self, output: Output) -> Result<Box<dyn Device>> {
+        let chosen = self.device.open()?;
+        if let Some(text) = &chosen.remark {
+            remark(text, output);
         }
+        Ok(chosen.device)
     }
 
-    fn picture(&self, rendering: &Rendering, record: Record) -> Picture {
-        let features = rendering
-            .features
-            .as_ref()
-            .and_then(|pixels| Features::new(pixels, &self.aovs));
+    /// Renders under a progress bar, until done or until a signal asks to stop.
+    fn render(&self, device: &mut dyn Device, task: &Task, output: Output) -> Result<Rendering> {
+        let bar = progress_bar(output, self.scene);
+        let signals = Watch::new();
+        let mut watch = |progress: Progress| {
+            bar.set_length(progress.total);
+            bar.set_position(progress.paths);
+            if signals.stopped() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let rendering = render::render(device, task, &mut watch);
+        bar.finish_and_clear();
         rendering
-            .film
-            .picture(record, features, Some(self.scene.source.text.clone()))
     }
 }
 
-/// The samples that some pixel has: a render that was stopped may have given some more than others.
-fn taken(first: u64, film: &Film) -> [u64; 2] {
-    [
-        first,
-        first + film.counts.iter().copied().max().unwrap_or(0),
-    ]
-}
-
-/// Identifies a scene's text in records.
-pub(crate) fn scene_hash(text: &str) -> String {
-    blake3::hash(text.as_bytes()).to_hex()[..16].into()
+fn remark(text: &str, output: Output) {
+    if !output.quiet {
+        note(&format!("lampray: {text}"));
+    }
 }
 
 /// A bar on a terminal, nothing elsewhere.

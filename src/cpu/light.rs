@@ -75,10 +75,7 @@ fn sample_inverse_cosine(pole: Basis, u: Vec2) -> Vec3 {
 
 /// Case 3: three normal numbers made a unit vector.
 fn sample_gaussian(u: Vec4) -> Vec3 {
-    let radius = Vec2::new(
-        (-2.0 * (1.0 - u.x).ln()).sqrt(),
-        (-2.0 * (1.0 - u.y).ln()).sqrt(),
-    );
+    let radius = Vec2::new(root(-2.0 * (1.0 - u.x).ln()), root(-2.0 * (1.0 - u.y).ln()));
     let v = (radius.x * unit_circle(u.z)).extend(radius.y * unit_circle(u.w).x);
     let size = v.dot(v);
     if size > 1e-30 {

@@ -1,9 +1,11 @@
 //! The loop that feeds a device with blocks and adds up what comes back.
 
 mod choose;
+mod picture;
 mod plan;
 
 pub use choose::{Chosen, VULKAN_HINT, devices, open, word};
+pub use picture::{picture, scene_hash};
 pub use plan::{Block, Plan};
 
 use crate::device::{Device, run_ranges};
