@@ -21,12 +21,14 @@ struct Crossing {
 
 // The first distance at which a ray meets a body from the side it is on, or -1.
 // A ray that leaves a convex body outwards cannot meet it again, and one that starts on its inner
-// side meets only the far side: so no surface ever shadows itself, whatever the rounding.
+// side meets the far side and nothing else: so no surface ever shadows itself, and no closed one
+// leaks where rounding has put the start of a ray just past an edge, whatever the rounding.
 fn first_distance(crossing: Crossing, ray: Ray, body: u32) -> f32 {
     let own = ray.source == body;
     let outside = crossing.near > 0.0 && !own;
     let distance = select(crossing.far, crossing.near, outside);
-    return select(-1.0, distance, crossing.met && !(own && !ray.inside));
+    let kept = select(distance, greater(distance, 1e-30), own);
+    return select(-1.0, kept, select(crossing.met, ray.inside, own));
 }
 
 // A point a few units in the last place off the surface, on the side that `normal` points to.

@@ -90,8 +90,7 @@ fn sphere_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
     let center = sphere_at(index).center;
     let radius = sphere_at(index).radius;
     let outward = sphere_normal(center, ray.origin + hit.distance * ray.direction);
-    let crossing = intersect_sphere(center, radius, ray);
-    let inside = ray.source == hit.body || crossing.near <= 0.0;
+    let inside = dot(outward, ray.direction) > 0.0;
     // The point is put back on the sphere: errors do not grow with the distance travelled.
     return Surface(
         center + radius * outward,
@@ -106,14 +105,23 @@ fn sphere_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
 
 fn box_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
     let shape = box_at(index);
-    let origin = box_local(shape, ray.origin - shape.center);
-    let direction = box_local(shape, ray.direction);
-    let crossing = intersect_box(shape.half_size, origin, safe_inverse(direction));
-    let inside = ray.source == hit.body || crossing.near <= 0.0;
+    let rotated = ROTATED_BOX_COUNT > 0u && index >= BOX_COUNT;
+    var origin = ray.origin - shape.center;
+    var direction = ray.direction;
+    if rotated {
+        origin = box_local(shape, origin);
+        direction = box_local(shape, direction);
+    }
+    let inside = ray.source == hit.body || all(abs(origin) < shape.half_size);
     let face = box_face(shape.half_size, origin + hit.distance * direction, select(-direction, direction, inside));
-    let outward = box_world(shape, face.normal);
+    var point = face.point;
+    var outward = face.normal;
+    if rotated {
+        point = box_world(shape, point);
+        outward = box_world(shape, outward);
+    }
     return Surface(
-        shape.center + box_world(shape, face.point),
+        shape.center + point,
         select(outward, -outward, inside),
         shape.material,
         0u,

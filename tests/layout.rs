@@ -249,6 +249,9 @@ fn wgsl_layout(module: &naga::Module, kind: &naga::Type) -> Layout {
     }
 }
 
+/// The struct that the host prints for scenes that fit a uniform buffer.
+const SCENE: &str = "SceneData";
+
 /// The structs that a kernel's bindings hold, nested ones too, and the stride of those in arrays.
 fn bound_structs(module: &naga::Module) -> Vec<(&naga::Type, Option<u32>)> {
     let mut found = Vec::new();
@@ -260,7 +263,10 @@ fn bound_structs(module: &naga::Module) -> Vec<(&naga::Type, Option<u32>)> {
         match &kind.inner {
             TypeInner::Array { base, stride, .. } => open.push((*base, Some(*stride))),
             TypeInner::Struct { members, .. } => {
-                found.push((kind, stride));
+                // Arrays one after the other, with a test of their own.
+                if kind.name.as_deref() != Some(SCENE) {
+                    found.push((kind, stride));
+                }
                 open.extend(members.iter().map(|member| (member.ty, None)));
             }
             _ => {}
@@ -290,6 +296,58 @@ fn structs_are_laid_out_alike() {
     }
     let listed: BTreeSet<_> = rust.keys().map(ToString::to_string).collect();
     assert_eq!(seen, listed, "the table lists structs that no kernel binds");
+}
+
+/// Where the host puts each array of a scene that is one uniform buffer: one after the other.
+fn packed_offsets(arrays: SceneArrays) -> Vec<(usize, usize)> {
+    let mut next = 0;
+    let place = |array: &shader::SceneArray| {
+        let start = next;
+        next += array.length * array.stride;
+        (start, array.length)
+    };
+    arrays.list().iter().map(place).collect()
+}
+
+/// Offset and length of each array of the printed struct.
+fn printed_offsets(module: &naga::Module) -> Vec<(usize, usize)> {
+    let mut types = module.types.iter().map(|(_, kind)| kind);
+    let scene = types.find(|kind| kind.name.as_deref() == Some(SCENE));
+    let TypeInner::Struct { members, .. } = &scene.unwrap().inner else {
+        panic!("{SCENE} is no struct");
+    };
+    let place = |member: &naga::StructMember| match module.types[member.ty].inner {
+        TypeInner::Array {
+            size: naga::ArraySize::Constant(length),
+            ..
+        } => (member.offset as usize, length.get() as usize),
+        ref other => panic!("{other:?} in {SCENE}"),
+    };
+    members.iter().map(place).collect()
+}
+
+#[test]
+fn a_scene_in_one_buffer_lies_as_it_is_uploaded() {
+    for lengths in [[1, 1, 1, 1], [2, 4, 8, 1], [16, 1, 2, 4], [8, 64, 32, 8]] {
+        let [materials, spheres, boxes, lamps] = lengths;
+        let arrays = SceneArrays {
+            materials,
+            spheres,
+            boxes,
+            lamps,
+        };
+        for kernel in [Kernel::Trace, Kernel::Features] {
+            let printed = printed_offsets(&module(kernel, arrays));
+            assert_eq!(printed, packed_offsets(arrays), "{kernel} {lengths:?}");
+        }
+        let swapped = SceneArrays {
+            boxes: boxes + 1,
+            spheres: spheres + 1,
+            ..arrays
+        };
+        let printed = printed_offsets(&module(Kernel::Trace, swapped));
+        assert_ne!(printed, packed_offsets(arrays));
+    }
 }
 
 /// [`Sphere`] with two fields of one size in the wrong order.
@@ -405,7 +463,7 @@ fn declared(module: &naga::Module) -> BTreeMap<(u32, u32), Binding> {
 /// The same from the tables that the pipelines are made by.
 fn tabled(kernel: Kernel, arrays: SceneArrays) -> BTreeMap<(u32, u32), Binding> {
     let scene = binds_scene(kernel).then(|| scene_bindings(arrays));
-    let scene = scene.into_iter().flatten().zip(0..);
+    let scene = scene.unwrap_or_default().into_iter().zip(0..);
     let pass = bindings(kernel).iter().copied().zip(0..);
     let scene = scene.map(|(kind, number)| ((0, number), kind));
     scene

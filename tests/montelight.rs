@@ -327,7 +327,8 @@ fn job(packed: &Packed) -> Job {
 
 /// What lampray makes of a path; as it does before averaging, the clamp comes last.
 fn rendered(packed: &Packed, job: &Job, pixel: [u32; 2], sample: u64) -> DVec3 {
-    let (radiance, _) = Tracer::new(packed, job).sample(pixel, sample);
+    let bodies = lampray::cpu::four::Bodies::new(packed);
+    let (radiance, _) = Tracer::new(packed, &bodies, job).sample(pixel, sample);
     radiance
         .as_dvec3()
         .min(DVec3::splat(f64::from(packed.clamp)))
@@ -437,7 +438,8 @@ fn one_path_by_hand() {
         throughput *= things[thing].colour;
         sum += step.value;
         shorter.max_bounces = bounces;
-        let (ours, _) = Tracer::new(&packed, &shorter).sample(PIXEL, SAMPLE);
+        let bodies = lampray::cpu::four::Bodies::new(&packed);
+        let (ours, _) = Tracer::new(&packed, &bodies, &shorter).sample(PIXEL, SAMPLE);
         assert!(
             (ours.as_dvec3() - sum).abs().max_element() < 1e-4 * sum.max_element(),
             "{at}: {ours}"

@@ -217,7 +217,7 @@ fn mean_of(samples: &[Tally]) -> [f32; 3] {
 
 /// A run is its samples: each taken by itself has the value that it has among the others.
 fn samples_do_not_matter_to_each_other(device: &mut dyn Device) {
-    let region = rect(5, 4, 14, 13);
+    let region = rect(5, 8, 14, 17);
     device.load(&Packed::new(&room(&[]))).unwrap();
     let run = &trace(device, region, 32, RUN_LENGTH)[0].2;
     let single: Vec<_> = (32..48)
@@ -237,18 +237,23 @@ fn samples_do_not_matter_to_each_other(device: &mut dyn Device) {
         );
         different += usize::from(samples[0].mean != samples[1].mean);
     }
-    assert!(different > region.area() / 2, "all samples are alike");
+    assert!(
+        different > region.area() / 3,
+        "only {different} pixels have samples that differ"
+    );
 }
 
 /// A comparison that cannot fail proves nothing: other seeds and other samples give other pictures.
 fn other_samples_differ(device: &mut dyn Device) {
     let scene = room(&[]);
     let usual = take(device, &task(&scene));
-    let most = usual.region.area() * 9 / 10;
+    // All that show a body; the background looks the same to any sample.
+    let most = usual.region.area() / 5;
     for seed in ["render.seed=78", "render.seed=4294967373"] {
         let other = room(&[seed]);
         let film = take(device, &task(&other));
-        assert!(differing(&film, &usual, usual.region) >= most, "{seed}");
+        let count = differing(&film, &usual, usual.region);
+        assert!(count >= most, "{seed}: only {count} pixels differ");
     }
     let later = take(
         device,
@@ -260,12 +265,52 @@ fn other_samples_differ(device: &mut dyn Device) {
     assert!(differing(&later, &usual, usual.region) >= most);
 }
 
+/// Mesa's software drivers leave every loop after 65,535 iterations: long paths, many samples and
+/// many bodies must not lose samples to that.
+fn long_work_is_done(device: &mut dyn Device) {
+    const HALL: &str = r#"
+version = 1
+[camera]
+position = [0.0, 0.0, 0.0]
+look_at = [0.0, 0.0, -1.0]
+fov = 50.0
+[image]
+width = 4
+height = 3
+[render]
+samples = 8
+max_bounces = 8
+[interruption]
+rule = "none"
+[materials.white]
+albedo = [1.0, 1.0, 1.0]
+[[spheres]]
+center = [0.0, 0.0, 0.0]
+radius = 1.0
+material = "white"
+"#;
+    let bodies: String = (0..60)
+        .map(|i| {
+            format!("[[spheres]]\ncenter = [{i}.0, 9.0, 9.0]\nradius = 0.1\nmaterial = \"white\"\n")
+        })
+        .collect();
+    for (extra, bounces) in [("", 10_000), (bodies.as_str(), 400)] {
+        let limit = Assignment::parse(&format!("render.max_bounces={bounces}")).unwrap();
+        let scene = Scene::parse("hall.toml", &(HALL.to_string() + extra), &[limit]).unwrap();
+        let film = take(device, &Task::new(&scene));
+        // No path ends before its time, and none finds light.
+        assert_eq!(film.rays, 4 * 3 * 8 * (bounces + 1));
+        assert_eq!(film.paths, 4 * 3 * 8);
+    }
+}
+
 fn all(device: &mut dyn Device) {
     budgets_do_not_matter(device);
     crops_do_not_matter(device);
     ranges_do_not_matter(device);
     samples_do_not_matter_to_each_other(device);
     other_samples_differ(device);
+    long_work_is_done(device);
 }
 
 #[test]

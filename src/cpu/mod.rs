@@ -3,6 +3,7 @@
 
 pub mod r#box;
 pub mod camera;
+pub mod four;
 pub mod interruption;
 pub mod light;
 pub mod maths;
@@ -17,6 +18,7 @@ pub mod trace;
 use crate::device::{Device, DeviceInfo, DeviceKind, runs};
 use crate::error::{Error, Result};
 use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally};
+use four::Bodies;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -24,7 +26,7 @@ use rayon::prelude::*;
 #[derive(Debug)]
 pub struct Cpu {
     info: DeviceInfo,
-    scene: Option<Packed>,
+    scene: Option<(Packed, Bodies)>,
 }
 
 impl Default for Cpu {
@@ -41,7 +43,7 @@ impl Cpu {
         }
     }
 
-    fn scene(&self) -> Result<&Packed> {
+    fn scene(&self) -> Result<&(Packed, Bodies)> {
         self.scene
             .as_ref()
             .ok_or_else(|| Error::Internal("no scene is loaded".into()))
@@ -79,15 +81,15 @@ impl Device for Cpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
-        self.scene = Some(scene.clone());
+        self.scene = Some((scene.clone(), Bodies::new(scene)));
         Ok(())
     }
 
     fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let scene = self.scene()?;
+        let (scene, bodies) = self.scene()?;
         let job = scene.job(rect, first_sample, samples);
-        let tracer = trace::Tracer::new(scene, &job);
-        let by_pixel: Vec<Vec<Tally>> = pixels(rect).map(|pixel| tracer.pixel(pixel)).collect();
+        let tracer = trace::Tracer::new(scene, bodies, &job);
+        let by_pixel: Vec<Vec<Tally>> = pixels(rect).map(|pixel| traced(&tracer, pixel)).collect();
         let runs = runs(first_sample, samples) as usize;
         Ok((0..runs)
             .flat_map(|run| by_pixel.iter().map(move |tallies| tallies[run]))
@@ -95,8 +97,10 @@ impl Device for Cpu {
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
-        let scene = self.scene()?;
-        Ok(pixels(rect).map(|pixel| feature_at(scene, pixel)).collect())
+        let (scene, bodies) = self.scene()?;
+        Ok(pixels(rect)
+            .map(|pixel| feature_at(scene, bodies, pixel))
+            .collect())
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {
@@ -105,8 +109,14 @@ impl Device for Cpu {
     }
 }
 
+/// Compiled for newer processors too, and chosen when the program runs.
+#[multiversion::multiversion(targets("x86_64+sse4.2+avx+avx2+bmi2"))]
+fn traced(tracer: &trace::Tracer, pixel: [u32; 2]) -> Vec<Tally> {
+    tracer.pixel(pixel)
+}
+
 /// Twin of `shaders/features.wgsl`.
-fn feature_at(scene: &Packed, pixel: [u32; 2]) -> Feature {
+fn feature_at(scene: &Packed, bodies: &Bodies, pixel: [u32; 2]) -> Feature {
     let film = Vec2::new(pixel[0] as f32, pixel[1] as f32) + 0.5;
     let direction = camera::camera_direction(&scene.camera, film);
     let ray = ray::Ray {
@@ -115,7 +125,7 @@ fn feature_at(scene: &Packed, pixel: [u32; 2]) -> Feature {
         source: 0,
         inside: false,
     };
-    let hit = scene::nearest_hit(scene, &ray);
+    let hit = scene::nearest_hit(bodies, &ray);
     if hit.body == 0 {
         return Feature::default();
     }

@@ -1,6 +1,6 @@
 //! Twin of `shaders/ray.wgsl`: a ray, what it crosses, and the rule for the body it starts on.
 
-use super::maths::largest;
+use super::maths::{greater, largest};
 use glam::Vec3;
 
 #[derive(Clone, Copy, Debug)]
@@ -23,16 +23,19 @@ pub struct Crossing {
 }
 
 /// The first distance at which a ray meets a body from the side it is on, or -1. A ray that leaves
-/// a convex body outwards cannot meet it again; one on its inner side meets only the far side.
+/// a convex body outwards cannot meet it again; one on its inner side meets the far side, always.
 pub fn first_distance(crossing: Crossing, ray: &Ray, body: u32) -> f32 {
-    let own = ray.source == body;
-    if !crossing.met || (own && !ray.inside) {
-        return -1.0;
+    if ray.source == body {
+        return if ray.inside {
+            greater(crossing.far, 1e-30)
+        } else {
+            -1.0
+        };
     }
-    if crossing.near > 0.0 && !own {
-        crossing.near
-    } else {
-        crossing.far
+    match crossing.met {
+        true if crossing.near > 0.0 => crossing.near,
+        true => crossing.far,
+        false => -1.0,
     }
 }
 

@@ -1,10 +1,11 @@
 //! Twin of `shaders/scene.wgsl`: nearest hit, any hit, and what was hit.
 
-use super::r#box::*;
-use super::ray::{Crossing, Ray, first_distance};
-use super::sphere::{intersect_sphere, sphere_normal};
-use crate::pack::{Cuboid, Packed};
-use glam::Vec3;
+use super::r#box::{box_face, box_local, box_world};
+use super::four::{Bodies, FourRay};
+use super::ray::Ray;
+use super::sphere::sphere_normal;
+use crate::pack::Packed;
+use glam::{Vec3, Vec4};
 
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
@@ -28,66 +29,55 @@ pub struct Surface {
     pub id: u32,
 }
 
-fn rotated_box_crossing(shape: &Cuboid, ray: &Ray) -> Crossing {
-    let from_center = box_local(shape, ray.origin - Vec3::from(shape.center));
-    let inverse = safe_inverse(box_local(shape, ray.direction));
-    intersect_box(Vec3::from(shape.half_size), from_center, inverse)
-}
-
-/// Calls `visit` with the first distance to every body that the ray meets, and the body.
 #[inline(always)]
-fn for_each_distance(scene: &Packed, ray: &Ray, mut visit: impl FnMut(f32, u32)) {
-    let mut body = 0;
-    for sphere in &scene.spheres {
-        body += 1;
-        let crossing = intersect_sphere(Vec3::from(sphere.center), sphere.radius, ray);
-        visit(first_distance(crossing, ray, body), body);
-    }
-    let inverse = safe_inverse(ray.direction);
-    let (straight, rotated) = scene.boxes.split_at(scene.strategy.box_count as usize);
-    for shape in straight {
-        body += 1;
-        let from_center = ray.origin - Vec3::from(shape.center);
-        let crossing = intersect_box(Vec3::from(shape.half_size), from_center, inverse);
-        visit(first_distance(crossing, ray, body), body);
-    }
-    for shape in rotated {
-        body += 1;
-        visit(
-            first_distance(rotated_box_crossing(shape, ray), ray, body),
-            body,
-        );
-    }
+pub fn nearest_hit(bodies: &Bodies, ray: &Ray) -> Hit {
+    let mut distance = Vec4::splat(3e38);
+    let mut body = Vec4::ZERO;
+    bodies.visit(&FourRay::new(ray), |found, numbers| {
+        let closer = found.cmpgt(Vec4::ZERO) & found.cmplt(distance);
+        distance = Vec4::select(closer, found, distance);
+        body = Vec4::select(closer, numbers, body);
+        false
+    });
+    first_of_four(distance, body)
 }
 
-pub fn nearest_hit(scene: &Packed, ray: &Ray) -> Hit {
-    let mut best = Hit {
-        distance: 3e38,
-        body: 0,
-    };
-    for_each_distance(scene, ray, |distance, body| {
-        if distance > 0.0 && distance < best.distance {
-            best = Hit { distance, body };
+/// The nearest of four hits; of equal ones that of the first body, as one after the other finds it.
+#[inline(always)]
+fn first_of_four(distance: Vec4, body: Vec4) -> Hit {
+    let (distance, body) = (distance.to_array(), body.to_array());
+    let mut best = 0;
+    for lane in 1..4 {
+        let tie = distance[lane] == distance[best] && body[lane] < body[best];
+        if distance[lane] < distance[best] || tie {
+            best = lane;
         }
-    });
-    best
+    }
+    Hit {
+        distance: distance[best],
+        body: body[best] as u32,
+    }
 }
 
 /// Whether anything but the body `target_body` stands nearer than `reach`.
-pub fn occluded(scene: &Packed, ray: &Ray, reach: f32, target_body: u32) -> bool {
+#[inline(always)]
+pub fn occluded(bodies: &Bodies, ray: &Ray, reach: f32, target_body: u32) -> bool {
+    let (reach, target) = (Vec4::splat(reach), Vec4::splat(target_body as f32));
     let mut blocked = false;
-    for_each_distance(scene, ray, |distance, body| {
-        blocked |= distance > 0.0 && distance < reach && body != target_body;
+    bodies.visit(&FourRay::new(ray), |found, numbers| {
+        let near = found.cmpgt(Vec4::ZERO) & found.cmplt(reach);
+        blocked = (near & !numbers.cmpeq(target)).any();
+        blocked
     });
     blocked
 }
 
+#[inline(always)]
 fn sphere_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
     let sphere = &scene.spheres[hit.body as usize - 1];
     let center = Vec3::from(sphere.center);
     let outward = sphere_normal(center, ray.origin + hit.distance * ray.direction);
-    let crossing = intersect_sphere(center, sphere.radius, ray);
-    let inside = ray.source == hit.body || crossing.near <= 0.0;
+    let inside = outward.dot(ray.direction) > 0.0;
     // The point is put back on the sphere: errors do not grow with the distance travelled.
     Surface {
         point: center + sphere.radius * outward,
@@ -100,19 +90,25 @@ fn sphere_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
     }
 }
 
+#[inline(always)]
 fn box_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
-    let shape = &scene.boxes[hit.body as usize - 1 - scene.spheres.len()];
-    let center = Vec3::from(shape.center);
-    let half_size = Vec3::from(shape.half_size);
-    let origin = box_local(shape, ray.origin - center);
-    let direction = box_local(shape, ray.direction);
-    let crossing = intersect_box(half_size, origin, safe_inverse(direction));
-    let inside = ray.source == hit.body || crossing.near <= 0.0;
+    let index = hit.body as usize - 1 - scene.spheres.len();
+    let shape = &scene.boxes[index];
+    let rotated = index >= scene.strategy.box_count as usize;
+    let (center, half_size) = (Vec3::from(shape.center), Vec3::from(shape.half_size));
+    let (mut origin, mut direction) = (ray.origin - center, ray.direction);
+    if rotated {
+        (origin, direction) = (box_local(shape, origin), box_local(shape, direction));
+    }
+    let inside = ray.source == hit.body || origin.abs().cmplt(half_size).all();
     let side = if inside { direction } else { -direction };
     let face = box_face(half_size, origin + hit.distance * direction, side);
-    let outward = box_world(shape, face.normal);
+    let (mut point, mut outward) = (face.point, face.normal);
+    if rotated {
+        (point, outward) = (box_world(shape, point), box_world(shape, outward));
+    }
     Surface {
-        point: center + box_world(shape, face.point),
+        point: center + point,
         normal: if inside { -outward } else { outward },
         material: shape.material,
         lamp: 0,
@@ -123,6 +119,7 @@ fn box_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
 }
 
 /// Only for a hit of something.
+#[inline(always)]
 pub fn surface_at(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
     if hit.body as usize <= scene.spheres.len() {
         sphere_surface(scene, hit, ray)

@@ -10,13 +10,6 @@ pub fn intersect_sphere(center: Vec3, radius: f32, ray: &Ray) -> Crossing {
     let b = -from_center.dot(ray.direction);
     let nearest = from_center + b * ray.direction;
     let discriminant = radius * radius - nearest.dot(nearest);
-    if discriminant < 0.0 {
-        return Crossing {
-            near: 0.0,
-            far: 0.0,
-            met: false,
-        };
-    }
     let c = from_center.dot(from_center) - radius * radius;
     let half_chord = root(discriminant);
     let q = b + if b >= 0.0 { half_chord } else { -half_chord };
@@ -25,7 +18,7 @@ pub fn intersect_sphere(center: Vec3, radius: f32, ray: &Ray) -> Crossing {
     Crossing {
         near,
         far,
-        met: true,
+        met: discriminant >= 0.0,
     }
 }
 

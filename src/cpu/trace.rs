@@ -1,6 +1,7 @@
 //! Twin of `shaders/trace.wgsl`: the vertices of a pixel's paths, one after the other.
 
 use super::camera::{camera_direction, sample_film};
+use super::four::Bodies;
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
 use super::maths::{Basis, greater, largest};
@@ -31,20 +32,27 @@ struct Path {
 #[derive(Clone, Copy, Debug)]
 pub struct Tracer<'a> {
     scene: &'a Packed,
+    bodies: &'a Bodies,
     job: &'a Job,
     pole: Basis,
 }
 
 impl<'a> Tracer<'a> {
-    pub fn new(scene: &'a Packed, job: &'a Job) -> Self {
+    pub fn new(scene: &'a Packed, bodies: &'a Bodies, job: &'a Job) -> Self {
         let pole = Basis {
             x: job.pole.x.into(),
             y: job.pole.y.into(),
             z: job.pole.z.into(),
         };
-        Self { scene, job, pole }
+        Self {
+            scene,
+            bodies,
+            job,
+            pole,
+        }
     }
 
+    #[inline(always)]
     fn start_path(&self, pixel: [u32; 2], sample: [u32; 2]) -> Path {
         let key = random_key(self.job.seed, pixel, sample);
         let u = random_unit(key, 0, 0);
@@ -67,10 +75,12 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    #[inline(always)]
     fn emission_counts(&self, path: &Path) -> bool {
         path.vertex == 0 || self.scene.strategy.light_direct == LightDirect::Bsdf
     }
 
+    #[inline(always)]
     fn lamp_hit_weight(&self, path: &Path, surface: &Surface, distance: f32) -> f32 {
         let strategy = &self.scene.strategy;
         if path.density == 0.0 || strategy.light_strategy == LightStrategy::Hit {
@@ -96,6 +106,7 @@ impl<'a> Tracer<'a> {
         power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30))
     }
 
+    #[inline(always)]
     fn emitted(&self, path: &Path, surface: &Surface, distance: f32) -> Vec3 {
         let emission = Vec3::from(self.scene.materials[surface.material as usize].emission);
         if !self.emission_counts(path) || largest(emission) == 0.0 {
@@ -109,6 +120,7 @@ impl<'a> Tracer<'a> {
 
     /// What one lamp sends to a surface and the surface sends on, by one shadow ray; and whether
     /// the ray was traced.
+    #[inline(always)]
     fn light_from(
         &self,
         index: usize,
@@ -159,11 +171,12 @@ impl<'a> Tracer<'a> {
             source: surface.body,
             inside: surface.inside,
         };
-        let blocked = occluded(self.scene, &shadow, light.distance, lamp.body);
+        let blocked = occluded(self.bodies, &shadow, light.distance, lamp.body);
         (if blocked { Vec3::ZERO } else { value }, 1)
     }
 
     /// The paper's direct light: one shadow ray to each lamp.
+    #[inline(always)]
     fn direct_light(&self, path: &mut Path, surface: &Surface, origin: Vec3) {
         if self.scene.strategy.light_strategy == LightStrategy::Hit {
             return;
@@ -177,6 +190,7 @@ impl<'a> Tracer<'a> {
         path.radiance += path.throughput * sum;
     }
 
+    #[inline(always)]
     fn last_ray_counts(&self, scattered: &Scattered) -> bool {
         match self.scene.strategy.last_ray {
             LastRay::Always => true,
@@ -185,6 +199,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    #[inline(always)]
     fn scatter_path(&self, path: &mut Path, surface: &Surface, origin: Vec3, u: Vec2) {
         let material = &self.scene.materials[surface.material as usize];
         let scattered = sample_scatter(
@@ -208,6 +223,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Emission, direct light and the next ray of one hit.
+    #[inline(always)]
     fn visit(&self, path: &mut Path, surface: &Surface, distance: f32) {
         let strategy = &self.scene.strategy;
         path.radiance += path.throughput * self.emitted(path, surface, distance);
@@ -246,8 +262,9 @@ impl<'a> Tracer<'a> {
         self.scatter_path(path, surface, origin, Vec2::new(u[0], u[1]));
     }
 
+    #[inline(always)]
     fn step_path(&self, path: &mut Path) {
-        let hit = nearest_hit(self.scene, &path.ray);
+        let hit = nearest_hit(self.bodies, &path.ray);
         path.rays += 1;
         if hit.body == 0 {
             if self.emission_counts(path) {
@@ -261,6 +278,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Radiance of one sample of a pixel, unclamped, and the rays it took.
+    #[inline(always)]
     pub fn sample(&self, pixel: [u32; 2], sample: u64) -> (Vec3, u32) {
         let mut path = self.start_path(pixel, crate::pack::words(sample));
         while path.alive {
@@ -270,6 +288,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// One tally for each run of the job's samples of a pixel.
+    #[inline(always)]
     pub fn pixel(&self, pixel: [u32; 2]) -> Vec<Tally> {
         let first = u64::from(self.job.first_sample[0]) | u64::from(self.job.first_sample[1]) << 32;
         let end = first + u64::from(self.job.samples);
@@ -289,7 +308,7 @@ impl<'a> Tracer<'a> {
 
 /// Sums of one run, as distances from its first sample.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Run {
+struct Run {
     first: Vec3,
     sum: Vec3,
     squares: Vec3,
@@ -323,18 +342,7 @@ impl Run {
         self.rays += rays;
     }
 
-    /// Adds a sample that was traced alone.
-    pub(crate) fn add_tally(&mut self, one: &Tally) {
-        let finite = one.non_finite == 0;
-        let radiance = if finite {
-            Vec3::from(one.mean)
-        } else {
-            Vec3::NAN
-        };
-        self.add(radiance, one.rays, f32::MAX);
-    }
-
-    pub(crate) fn tally(&self) -> Tally {
+    fn tally(&self) -> Tally {
         let shift = self.sum / self.samples as f32;
         let squares = (self.squares - self.sum * shift).max(Vec3::ZERO);
         Tally {

@@ -1,9 +1,9 @@
 //! One graphics device: buffers, dispatches, and every way in which it can fail.
 
 use super::adapter::Adapters;
+use super::pieces::{Allowance, Gathered, pieces};
 use super::pipeline::Pipeline;
-use crate::cpu::trace::Run;
-use crate::device::{Device, DeviceInfo, DeviceKind, run_ranges, runs};
+use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::shader::{Kernel, SceneArrays};
@@ -190,10 +190,6 @@ impl Guard {
     }
 }
 
-/// Mesa's software driver leaves every loop of a shader, without a word, once one group of lanes has
-/// been through this many iterations of all its loops together.
-const LLVMPIPE_ITERATIONS: u64 = 65_535;
-
 /// The buffers that results come back in; they grow with the largest block so far.
 #[derive(Debug)]
 struct Results {
@@ -206,6 +202,7 @@ struct Results {
 #[derive(Debug)]
 struct Loaded {
     packed: Packed,
+    allowance: Allowance,
     arrays: SceneArrays,
     buffers: Vec<wgpu::Buffer>,
 }
@@ -283,7 +280,9 @@ impl Gpu {
             .is_none_or(|results| results.bytes < bytes)
         {
             self.results = None;
-            let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+            let storage = wgpu::BufferUsages::STORAGE
+                | wgpu::BufferUsages::COPY_SRC
+                | wgpu::BufferUsages::COPY_DST;
             let staging = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
             self.results = Some(Results {
                 storage: self.guard.buffer(bytes, storage)?,
@@ -321,6 +320,8 @@ impl Gpu {
         let pass_group = guard.bind(&pipeline.pass_layout, &pass_buffers)?;
         let commands = guard.scoped(|device| {
             let mut encoder = device.create_command_encoder(&Default::default());
+            // What a lane does not write reads as zero, not as a result of another dispatch.
+            encoder.clear_buffer(&results.storage, 0, Some(bytes));
             {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 pass.set_pipeline(&pipeline.pipeline);
@@ -335,44 +336,40 @@ impl Gpu {
         guard.read(&results.staging, bytes)
     }
 
-    /// The most samples of a pixel that one dispatch may take. With room for less than a run, samples
-    /// are always taken one by one: the way they are summed must not depend on how work was split.
-    fn most_samples(&self, scene: &Packed) -> u64 {
-        if self.info.kind != DeviceKind::Software {
-            return u64::MAX;
-        }
-        match LLVMPIPE_ITERATIONS / scene.iterations() {
-            few if few < u64::from(RUN_LENGTH) => few.min(1),
-            many => many,
-        }
-    }
-
-    /// One dispatch.
-    fn trace_once(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let loaded = self.scene()?;
-        let job = loaded.packed.job(rect, first_sample, samples);
-        let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
-        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
-        let count = rect.area() * runs(first_sample, samples) as usize;
-        let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
-    }
-
-    /// A run, or part of one, by a dispatch for each sample.
-    fn trace_one_by_one(&mut self, rect: Rect, first: u64, samples: u32) -> Result<Vec<Tally>> {
-        let mut sums = vec![Run::default(); rect.area()];
-        for sample in first..first + u64::from(samples) {
-            for (sum, one) in sums.iter_mut().zip(self.trace_once(rect, sample, 1)?) {
-                sum.add_tally(&one);
-            }
-        }
-        Ok(sums.iter().map(Run::tally).collect())
-    }
-
     fn scene(&self) -> Result<&Loaded> {
         self.loaded
             .as_ref()
             .ok_or_else(|| Error::Internal("no scene is loaded".into()))
+    }
+
+    /// Traces samples in one dispatch whose lanes take at most `steps` steps.
+    fn trace_piece(
+        &mut self,
+        rect: Rect,
+        first_sample: u64,
+        samples: u32,
+        steps: u32,
+    ) -> Result<Vec<Tally>> {
+        let loaded = self.scene()?;
+        let mut job = loaded.packed.job(rect, first_sample, samples);
+        job.steps = job.steps.min(steps);
+        let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
+        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
+        let count = rect.area() * runs(first_sample, samples) as usize;
+        let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
+        let tallies: Vec<Tally> = self.dispatch(&pipeline, true, &inputs, tiles(rect), count)?;
+        // Every sample takes a ray: a tally without one was never written.
+        match tallies.iter().all(|tally| tally.rays > 0) {
+            true => Ok(tallies),
+            false => Err(self.cut_short("a path took too many steps")),
+        }
+    }
+
+    fn cut_short(&self, what: &str) -> Error {
+        Error::Device(format!(
+            "the device {} stops a kernel after 65,535 loop iterations, and {what}; use --device cpu or a smaller scene or render.max_bounces",
+            self.info.name
+        ))
     }
 
     /// Runs a library function over a list of inputs, for tests.
@@ -417,13 +414,10 @@ impl Device for Gpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
-        if self.most_samples(scene) == 0 {
-            return Err(Error::Device(format!(
-                "the device {} may stop in the middle of this scene's longest paths ({} steps; it makes {LLVMPIPE_ITERATIONS}); use --device cpu, or a lower render.max_bounces or fewer lamps and shapes",
-                self.info.name,
-                scene.iterations()
-            )));
-        }
+        let allowance = Allowance::new(self.info.kind, scene).ok_or_else(|| {
+            let bodies = scene.spheres.len() + scene.boxes.len();
+            self.cut_short(&format!("{bodies} bodies are more than it goes through"))
+        })?;
         let arrays = SceneArrays::new(scene);
         let bytes = [
             padded(&scene.materials, arrays.materials),
@@ -442,6 +436,7 @@ impl Device for Gpu {
         };
         self.loaded = Some(Loaded {
             packed: scene.clone(),
+            allowance,
             arrays,
             buffers,
         });
@@ -460,19 +455,13 @@ impl Device for Gpu {
     }
 
     fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let most = self.most_samples(&self.scene()?.packed);
-        if most >= u64::from(samples) {
-            return self.trace_once(rect, first_sample, samples);
+        let allowance = self.scene()?.allowance;
+        let mut gathered = Gathered::new(rect.area());
+        for (first, count) in pieces(first_sample, samples, allowance.samples) {
+            let tallies = self.trace_piece(rect, first, count, allowance.steps)?;
+            gathered.add(first, count, &tallies);
         }
-        let mut tallies = Vec::new();
-        for (first, count) in run_ranges(first_sample, samples) {
-            tallies.extend(if most >= u64::from(RUN_LENGTH) {
-                self.trace_once(rect, first, count)?
-            } else {
-                self.trace_one_by_one(rect, first, count)?
-            });
-        }
-        Ok(tallies)
+        Ok(gathered.tallies)
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {

@@ -4,6 +4,7 @@
 
 mod adapter;
 mod device;
+mod pieces;
 mod pipeline;
 
 pub use adapter::{Adapters, adapters};

@@ -61,15 +61,6 @@ impl Packed {
         }
     }
 
-    /// The most loop iterations that the tracing kernel makes for a sample, the last test of each
-    /// loop included.
-    pub fn iterations(&self) -> u64 {
-        let lamps = self.lamps.len() as u64;
-        let all_shapes = (self.spheres.len() + self.boxes.len()) as u64 + 3;
-        let step = 2 + lamps + all_shapes * (1 + lamps);
-        step * (u64::from(self.max_bounces) + 1)
-    }
-
     /// One dispatch of the tracing kernel: `samples` samples from `first_sample` on of each pixel of `rect`.
     pub fn job(&self, rect: Rect, first_sample: u64, samples: u32) -> Job {
         Job {

@@ -1,0 +1,182 @@
+//! Mesa's software drivers leave every loop of an invocation, without a word, once its loops
+//! together have taken 65,535 iterations (`LP_MAX_TGSI_LOOP_ITERATIONS`; so with 22.3.6). There a
+//! pixel's samples come in pieces that stay below that, whatever their paths do.
+
+use crate::device::{DeviceKind, run_ranges};
+use crate::knobs::LightStrategy;
+use crate::pack::{Packed, RUN_LENGTH, Tally};
+
+/// Loop iterations that an invocation may plan, with some to spare.
+const SOFTWARE_ITERATIONS: u64 = 65_000;
+
+/// How much of a pixel one dispatch may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Allowance {
+    /// Steps of a lane; one that needs more writes no tally.
+    pub steps: u32,
+    /// Samples: a power of two.
+    pub samples: u32,
+}
+
+impl Allowance {
+    /// None where a device cannot take a single step of the scene.
+    pub fn new(kind: DeviceKind, scene: &Packed) -> Option<Self> {
+        if kind != DeviceKind::Software {
+            return Some(Self {
+                steps: u32::MAX,
+                samples: 1 << 31,
+            });
+        }
+        let steps = SOFTWARE_ITERATIONS / iterations(scene);
+        let samples = (steps / (u64::from(scene.max_bounces) + 1)).max(1);
+        (steps > 0).then_some(Self {
+            steps: steps as u32,
+            samples: 1 << samples.ilog2(),
+        })
+    }
+}
+
+/// The most loop iterations of one step: its own, and those over the bodies for the ray and for
+/// each lamp's shadow ray. A loop's last look at its condition counts as one.
+fn iterations(scene: &Packed) -> u64 {
+    let bodies = (scene.spheres.len() + scene.boxes.len()) as u64 + 3;
+    let lamps = match scene.strategy.light_strategy {
+        LightStrategy::Hit => 0,
+        _ => scene.lamps.len() as u64,
+    };
+    2 + bodies + lamps * (1 + bodies)
+}
+
+/// First sample and number of samples of each piece of a range. Pieces end where the sample index
+/// is a multiple of `most`: they never depend on how the work was split before.
+pub fn pieces(first_sample: u64, samples: u32, most: u32) -> impl Iterator<Item = (u64, u32)> {
+    let (end, most) = (first_sample + u64::from(samples), u64::from(most));
+    (first_sample / most..end.div_ceil(most)).map(move |piece| {
+        let start = (piece * most).max(first_sample);
+        (start, (((piece + 1) * most).min(end) - start) as u32)
+    })
+}
+
+/// The tallies of a range's pieces, run by run.
+#[derive(Debug)]
+pub struct Gathered {
+    pub tallies: Vec<Tally>,
+    pixels: usize,
+    /// Number of the last run, and how many of its samples are there.
+    last: Option<(u64, u32)>,
+}
+
+impl Gathered {
+    pub fn new(pixels: usize) -> Self {
+        Self {
+            tallies: Vec::new(),
+            pixels,
+            last: None,
+        }
+    }
+
+    /// Adds the next piece; a run that the last one broke off goes on.
+    pub fn add(&mut self, first_sample: u64, samples: u32, tallies: &[Tally]) {
+        let runs = run_ranges(first_sample, samples).zip(tallies.chunks(self.pixels));
+        for ((start, count), part) in runs {
+            let run = start / u64::from(RUN_LENGTH);
+            match self.last {
+                Some((last, before)) if last == run => {
+                    let tail = self.tallies.len() - self.pixels;
+                    for (tally, more) in self.tallies[tail..].iter_mut().zip(part) {
+                        *tally = joined(tally, before, more, count);
+                    }
+                    self.last = Some((run, before + count));
+                }
+                _ => {
+                    self.tallies.extend_from_slice(part);
+                    self.last = Some((run, count));
+                }
+            }
+        }
+    }
+}
+
+/// The tally of `n` samples and `m` more (Chan, Golub and LeVeque 1979).
+fn joined(a: &Tally, n: u32, b: &Tally, m: u32) -> Tally {
+    let share = f64::from(m) / f64::from(n + m);
+    let apart: [f64; 3] = std::array::from_fn(|c| f64::from(b.mean[c]) - f64::from(a.mean[c]));
+    let squares = |c: usize| {
+        let between = apart[c] * apart[c] * share * f64::from(n);
+        (f64::from(a.squares[c]) + f64::from(b.squares[c]) + between) as f32
+    };
+    // The place of the first fault is in the high half.
+    let faults = match (a.non_finite, b.non_finite) {
+        (0, 0) => 0,
+        (0, more) => more + (n << 16),
+        (some, more) => some + (more & 0xffff),
+    };
+    Tally {
+        mean: std::array::from_fn(|c| (f64::from(a.mean[c]) + apart[c] * share) as f32),
+        rays: a.rays + b.rays,
+        squares: std::array::from_fn(squares),
+        non_finite: faults,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tally(values: &[f32]) -> Tally {
+        let n = values.len() as f32;
+        let mean = values.iter().sum::<f32>() / n;
+        let squares = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+        Tally {
+            mean: [mean; 3],
+            rays: values.len() as u32,
+            squares: [squares; 3],
+            non_finite: 0,
+        }
+    }
+
+    #[test]
+    fn pieces_cover_a_range_and_end_at_fixed_places() {
+        for (first, samples, most) in [(0, 64, 4), (5, 40, 8), (7, 1, 1), ((1 << 40) + 3, 99, 32)] {
+            let mut next = first;
+            for (start, count) in pieces(first, samples, most) {
+                assert_eq!(start, next);
+                next += u64::from(count);
+                let end = first + u64::from(samples);
+                assert!(count <= most && (next == end || next.is_multiple_of(u64::from(most))));
+            }
+            assert_eq!(next, first + u64::from(samples));
+        }
+    }
+
+    #[test]
+    fn pieces_add_up_to_runs() {
+        let values: Vec<f32> = (0..24u8).map(|i| f32::from(i * 37 % 11)).collect();
+        let mut gathered = Gathered::new(1);
+        for (start, count) in pieces(4, 24, 4) {
+            let from = start as usize - 4;
+            gathered.add(start, count, &[tally(&values[from..from + count as usize])]);
+        }
+        let runs = [&values[..12], &values[12..]].map(tally);
+        assert_eq!(gathered.tallies.len(), 2);
+        for (got, wanted) in gathered.tallies.iter().zip(runs) {
+            assert!((got.mean[0] - wanted.mean[0]).abs() < 1e-5, "{got:?}");
+            assert!((got.squares[0] - wanted.squares[0]).abs() < 1e-3, "{got:?}");
+            assert_eq!(got.rays, wanted.rays);
+        }
+    }
+
+    #[test]
+    fn the_first_fault_of_a_run_keeps_its_place() {
+        let (clean, faulty) = (
+            tally(&[1.0, 2.0]),
+            Tally {
+                non_finite: 1 | 1 << 16,
+                ..tally(&[0.0, 0.0])
+            },
+        );
+        assert_eq!(joined(&clean, 2, &faulty, 2).non_finite, 1 | 3 << 16);
+        assert_eq!(joined(&faulty, 2, &faulty, 2).non_finite, 2 | 1 << 16);
+        assert_eq!(joined(&faulty, 2, &clean, 2).non_finite, 1 | 1 << 16);
+    }
+}

@@ -1,0 +1,34 @@
+//! Integrals in f64, for truths that are not elementary.
+
+use std::f64::consts::PI;
+
+/// Integral of `f` over `[a, b]` by `panels` panels of Gauss and Legendre's rule with five points:
+/// exact for polynomials of degree nine in each panel.
+pub fn integrate(a: f64, b: f64, panels: u32, f: impl Fn(f64) -> f64) -> f64 {
+    // Abscissae sqrt(5 -+ 2 sqrt(10/7)) / 3 and weights (322 +- 13 sqrt 70) / 900.
+    let root = (10.0_f64 / 7.0).sqrt();
+    let (near, far) = (
+        (5.0 - 2.0 * root).sqrt() / 3.0,
+        (5.0 + 2.0 * root).sqrt() / 3.0,
+    );
+    let (heavy, light) = (322.0 + 13.0 * 70f64.sqrt(), 322.0 - 13.0 * 70f64.sqrt());
+    let half = 0.5 * (b - a) / f64::from(panels);
+    let panel = |index: u32| {
+        let middle = a + half * f64::from(2 * index + 1);
+        let pair = |x: f64| f(middle - half * x) + f(middle + half * x);
+        half * (128.0 / 225.0 * f(middle) + heavy / 900.0 * pair(near) + light / 900.0 * pair(far))
+    };
+    (0..panels).map(panel).sum()
+}
+
+/// The error function: 2 / sqrt(pi) times the integral of exp(-t^2) from 0 to x.
+pub fn erf(x: f64) -> f64 {
+    2.0 / PI.sqrt() * integrate(0.0, x.min(7.0), 64, |t| (-t * t).exp())
+}
+
+#[test]
+fn quadrature_is_good_to_ten_digits() {
+    assert!((integrate(0.0, PI, 8, f64::sin) - 2.0).abs() < 1e-10);
+    assert!((erf(1.0) - 0.842_700_792_949_714_9).abs() < 1e-12);
+    assert!((erf(9.0) - 1.0).abs() < 1e-12);
+}
