@@ -29,6 +29,7 @@ pub struct Cone {
     pub open: bool,
 }
 
+#[inline(always)]
 pub fn lamp_cone(lamp: &Lamp, origin: Vec3) -> Cone {
     let to_center = Vec3::from(lamp.center) - origin;
     let distance = to_center.length();
@@ -122,6 +123,7 @@ fn area_to_solid_angle(outward: Vec3, direction: Vec3, distance: f32, inside: bo
 }
 
 /// Shirley, Wang and Zimmerman 1996.
+#[inline(always)]
 fn sample_cone(strategy: &Strategy, lamp: &Lamp, cone: Cone, u: Vec2) -> LightSample {
     let fallen = u.x * cone.height;
     let sine_squared = fallen * (2.0 - fallen);
@@ -145,6 +147,7 @@ fn sample_cone(strategy: &Strategy, lamp: &Lamp, cone: Cone, u: Vec2) -> LightSa
 }
 
 /// `inside`: whether `origin` is inside the lamp.
+#[inline(always)]
 pub fn sample_light(
     strategy: &Strategy,
     lamp: &Lamp,

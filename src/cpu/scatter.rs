@@ -23,6 +23,7 @@ pub fn mirror_direction(normal: Vec3, incoming: Vec3) -> Vec3 {
     (incoming - 2.0 * normal.dot(incoming) * normal).normalize()
 }
 
+#[inline(always)]
 fn sample_diffuse(strategy: &Strategy, material: &Material, normal: Vec3, u: Vec2) -> Scattered {
     let albedo = Vec3::from(material.albedo);
     let ball = unit_sphere(u);
@@ -90,6 +91,7 @@ fn sample_directional(
     }
 }
 
+#[inline(always)]
 pub fn sample_scatter(
     strategy: &Strategy,
     material: &Material,
@@ -109,6 +111,7 @@ pub fn sample_scatter(
 }
 
 /// Density with which [`sample_scatter`] draws `outgoing`.
+#[inline(always)]
 pub fn scatter_density(
     strategy: &Strategy,
     material: &Material,
@@ -134,6 +137,7 @@ pub fn evaluate_lambert(material: &Material, normal: Vec3, outgoing: Vec3) -> Ve
 }
 
 /// Scattering function times cosine; the part with a density only.
+#[inline(always)]
 pub fn evaluate_scatter(
     strategy: &Strategy,
     material: &Material,
