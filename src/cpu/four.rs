@@ -208,33 +208,18 @@ impl Bodies {
     /// says that it has seen enough.
     #[inline(always)]
     pub fn visit(&self, ray: &FourRay, mut visit: impl FnMut(Vec4, Vec4) -> bool) {
-        let spheres = self
+        let _ = self
             .spheres
             .iter()
-            .map(|four| (four.distances(ray), four.body));
-        for (distances, bodies) in spheres {
-            if visit(distances, bodies) {
-                return;
-            }
-        }
-        let straight = self
-            .straight
-            .iter()
-            .map(|four| (four.distances(ray), four.body));
-        for (distances, bodies) in straight {
-            if visit(distances, bodies) {
-                return;
-            }
-        }
-        let rotated = self
-            .rotated
-            .iter()
-            .map(|four| (four.rotated_distances(ray), four.body));
-        for (distances, bodies) in rotated {
-            if visit(distances, bodies) {
-                return;
-            }
-        }
+            .any(|four| visit(four.distances(ray), four.body))
+            || self
+                .straight
+                .iter()
+                .any(|four| visit(four.distances(ray), four.body))
+            || self
+                .rotated
+                .iter()
+                .any(|four| visit(four.rotated_distances(ray), four.body));
     }
 }
 

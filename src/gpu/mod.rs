@@ -4,9 +4,11 @@
 
 mod adapter;
 mod device;
+mod guard;
 mod pieces;
 mod pipeline;
 
 pub use adapter::{Adapters, adapters};
-pub use device::{Gpu, catching};
+pub use device::Gpu;
+pub use guard::catching;
 pub use pipeline::{Binding, bindings, binds_scene, scene_bindings};

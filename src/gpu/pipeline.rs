@@ -1,6 +1,6 @@
 //! Pipelines: a kernel, its bindings, and the strategy that its override constants spell.
 
-use super::device::Guard;
+use super::guard::Guard;
 use crate::error::Result;
 use crate::knobs::Choice;
 use crate::pack::Strategy;
