@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::gpu::{Adapters, Gpu, adapters};
 
 /// How to get a software Vulkan driver, for messages.
-pub const VULKAN_HINT: &str = "install Mesa's software Vulkan driver: mesa-vulkan-drivers (Debian, Ubuntu, Fedora, openSUSE: libvulkan_lvp) or vulkan-swrast (Arch)";
+pub const VULKAN_HINT: &str = "for Vulkan on the CPU install mesa-vulkan-drivers (openSUSE: libvulkan_lvp, Arch: vulkan-swrast)";
 
 /// Every device of this machine, in the order of their numbers: graphics devices, hardware first,
 /// then the CPU twin.
