@@ -64,18 +64,21 @@ impl std::str::FromStr for DeviceRequest {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        if let Some(address) = text.strip_prefix("pci:") {
-            return Ok(Self::Pci(address.to_lowercase()));
+        let word = text.to_lowercase();
+        if let Some(address) = word
+            .strip_prefix("pci:")
+            .filter(|address| !address.is_empty())
+        {
+            return Ok(Self::Pci(address.to_string()));
         }
-        Ok(match text {
+        Ok(match word.as_str() {
             "auto" => Self::Auto,
             "cpu" => Self::Cpu,
             "gpu" | "hardware" => Self::Hardware,
             "software" => Self::Software,
-            "" => {
-                return Err(Error::Usage(
-                    "--device is empty: see `lampray devices`".into(),
-                ));
+            "" | "pci:" => {
+                let message = "--device names nothing: see `lampray devices`";
+                return Err(Error::Usage(message.into()));
             }
             _ => text
                 .parse()

@@ -305,6 +305,38 @@ fn points_come_as_data_and_as_plots() {
     }
 }
 
+/// Before every pixel has a sample there is no picture to save, and the old one stays.
+#[cfg(unix)]
+#[test]
+fn an_early_interrupt_keeps_the_old_file() {
+    let folder = folder();
+    std::fs::write(folder.path().join("s.exr"), "old").unwrap();
+    let size = ["--width", "16000", "--height", "16000", "--spp", "1000"];
+    let arguments = [
+        &["render", "s.toml", "--device", "cpu", "-q", "-o", "s.exr"],
+        &size[..],
+    ]
+    .concat();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lampray"));
+    let mut child = command
+        .current_dir(folder.path())
+        .args(arguments)
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(std::fs::read(folder.path().join("s.exr")).unwrap(), b"old");
+    assert_eq!(
+        std::fs::read_dir(folder.path()).unwrap().count(),
+        2,
+        "no temporary is left"
+    );
+}
+
 /// The first signal saves what is done and leaves no temporary behind.
 #[cfg(unix)]
 #[test]

@@ -23,7 +23,7 @@ fn requests_are_read() {
         ("12", DeviceRequest::Index(12)),
         ("-1", DeviceRequest::Name("-1".into())),
         ("GeForce RTX", DeviceRequest::Name("GeForce RTX".into())),
-        ("CPU", DeviceRequest::Name("CPU".into())),
+        ("CPU", DeviceRequest::Cpu),
         (
             "pci:0000:65:00.0",
             DeviceRequest::Pci("0000:65:00.0".into()),
@@ -36,8 +36,10 @@ fn requests_are_read() {
     for (text, wanted) in read {
         assert_eq!(request(text), wanted, "{text}");
     }
-    let refused = "".parse::<DeviceRequest>().unwrap_err();
-    assert!(matches!(refused, Error::Usage(_)), "{refused}");
+    for nothing in ["", "pci:"] {
+        let refused = nothing.parse::<DeviceRequest>().unwrap_err();
+        assert!(matches!(refused, Error::Usage(_)), "{refused}");
+    }
 }
 
 /// The message of a request that cannot be met: one line that names all that there is.

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "Examples:
   lampray render scenes/cornell.toml
   lampray render scenes/cornell.toml --preset paper --spp 50 --width 128 --height 128 -o paper.png
-  lampray render scenes/cornell.toml --set light.sampler=gaussian --set materials.red.albedo=[0.6,0.1,0.1]
+  lampray render scenes/cornell.toml --set light.sampler=gaussian --set 'materials.red.albedo=[0.6,0.1,0.1]'
   lampray render scenes/cornell.toml --sample-range 64..128 -o second-half.exr")]
 pub(crate) struct Command {
     /// Scene file (TOML)

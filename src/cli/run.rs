@@ -29,6 +29,8 @@ impl Run<'_> {
     /// Renders and writes. Outputs that cannot be written are refused before anything is rendered.
     pub(crate) fn go(self, output: Output) -> Result<()> {
         let started = Instant::now();
+        // Watched from the start: a signal must find no temporary file that nobody would remove.
+        let signals = Watch::new();
         let targets = Target::prepare_all(&self.outputs)?;
         let mut device = self.open(output)?;
         let task = Task {
@@ -38,7 +40,7 @@ impl Run<'_> {
             features: !self.aovs.is_empty(),
         };
         let opening = started.elapsed();
-        let rendering = self.render(device.as_mut(), &task, output);
+        let rendering = self.render(device.as_mut(), &task, &signals, output);
         let rendering = match rendering {
             // The device cannot take this scene. Where any will do there is one that can.
             Err(Error::Device(reason)) if self.device.any() => {
@@ -47,10 +49,17 @@ impl Run<'_> {
                     output,
                 );
                 device = Box::new(Cpu::new());
-                self.render(device.as_mut(), &task, output)?
+                self.render(device.as_mut(), &task, &signals, output)?
             }
             outcome => outcome?,
         };
+        if rendering.film.counts.contains(&0) {
+            remark(
+                "stopped before every pixel had a sample: nothing is written",
+                output,
+            );
+            return Ok(());
+        }
         let mut picture = render::picture(&task, device.info(), &rendering, &self.aovs);
         name_outputs(&mut picture.record, &targets);
         picture.record.seconds.setup += opening.as_secs_f64();
@@ -78,9 +87,14 @@ impl Run<'_> {
     }
 
     /// Renders under a progress bar, until done or until a signal asks to stop.
-    fn render(&self, device: &mut dyn Device, task: &Task, output: Output) -> Result<Rendering> {
+    fn render(
+        &self,
+        device: &mut dyn Device,
+        task: &Task,
+        signals: &Watch,
+        output: Output,
+    ) -> Result<Rendering> {
         let bar = progress_bar(output, self.scene);
-        let signals = Watch::new();
         let mut watch = |progress: Progress| {
             bar.set_length(progress.total);
             bar.set_position(progress.paths);

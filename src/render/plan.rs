@@ -8,8 +8,9 @@ use std::time::Duration;
 /// How long a dispatch should take.
 const TARGET: Duration = Duration::from_millis(150);
 /// Samples of the first dispatch, before anything is known of the scene's cost: a scene would have to
-/// be ten thousand times as slow as a Cornell box on a software driver to make it take half a second.
-const FIRST_BUDGET: u64 = 512;
+/// be a hundred thousand times as slow as a Cornell box on a software driver to make it take half a
+/// second.
+const FIRST_BUDGET: u64 = 64;
 /// From one dispatch to the next the plan grows at most by this factor: pixels differ in cost.
 const GROWTH: u64 = 8;
 /// Samples of a pixel that one dispatch takes where there is enough to do beside: long lanes keep
