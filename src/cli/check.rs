@@ -1,3 +1,4 @@
+use super::options::KnobOptions;
 use super::{Output, Result, note, print};
 use crate::knobs::{Choice, short};
 use crate::scene::{Assignment, Finding, Scene};
@@ -14,15 +15,13 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Command {
     /// Scene file (TOML)
     scene: PathBuf,
-    /// Set a knob over what the scene says; may be given many times
-    #[arg(long = "set", value_name = "PATH=VALUE")]
-    assignments: Vec<String>,
+    #[command(flatten)]
+    knobs: KnobOptions,
 }
 
 impl Command {
     pub(crate) fn run(self, output: Output) -> Result<()> {
-        let parse = |text: &String| Assignment::parse(text);
-        let assignments: Vec<_> = self.assignments.iter().map(parse).collect::<Result<_>>()?;
+        let assignments = self.knobs.assignments()?;
         let scene = match load(&self.scene, &assignments) {
             Ok(scene) => scene,
             Err((error, findings)) => {
