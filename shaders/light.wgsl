@@ -145,7 +145,10 @@ fn sample_cone(lamp: Lamp, cone: Cone, u: vec2<f32>) -> LightSample {
     return LightSample(direction, distance, weight, inverse_density);
 }
 
-// A direction to a point that the lamp's surface is drawn at.
+// A direction to a point of the lamp's surface.
+// With the weight `pdf` the point counts when it is itself seen. With `solid-angle` it counts when
+// the lamp is the first body in its direction, as in the base code: points of the far side count
+// too, and the shadow ray need only reach the near side, one chord before them.
 fn sample_area(lamp: Lamp, axes: Basis, origin: vec3<f32>, inside: bool, u: vec4<f32>) -> LightSample {
     let outward = sample_surface(axes, u);
     let to_point = lamp.center + lamp.radius * outward - origin;
@@ -162,18 +165,12 @@ fn sample_area(lamp: Lamp, axes: Basis, origin: vec3<f32>, inside: bool, u: vec4
 }
 
 // `inside`: whether `origin` is inside the lamp.
-// With the weight `pdf` a point counts when it is itself seen. With `solid-angle` it counts when
-// the lamp is the first body in its direction, as in the base code, so far-side points count too
-// and the shadow ray need only reach the near side.
 fn sample_light(lamp: Lamp, pole: Basis, origin: vec3<f32>, inside: bool, u: vec4<f32>) -> LightSample {
     let cone = lamp_cone(lamp, origin);
-    var sample = LightSample();
     if LIGHT_SAMPLER == LIGHT_SAMPLER_CONE && cone.open && !inside {
-        sample = sample_cone(lamp, cone, u.xy);
-    } else {
-        sample = sample_area(lamp, light_pole(pole, cone), origin, inside, u);
+        return sample_cone(lamp, cone, u.xy);
     }
-    return sample;
+    return sample_area(lamp, light_pole(pole, cone), origin, inside, u);
 }
 
 // Inverse density with which `sample_light` draws the unit `direction`, which meets the lamp at

@@ -99,6 +99,12 @@ fn emitted(path: Path, surface: Surface, distance: f32) -> vec3<f32> {
     return emission * lamp_hit_weight(path, surface, distance);
 }
 
+// Direct light at a hit, and the shadow rays that it took.
+struct DirectLight {
+    radiance: vec3<f32>,
+    rays: u32,
+}
+
 // What one lamp sends to a surface and the surface sends on along the path, by one shadow ray
 // from `origin`, a point just off the surface.
 fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: vec4<f32>) -> DirectLight {
@@ -124,11 +130,6 @@ fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: ve
     let shadow = Ray(origin, light.direction, surface.body, surface.inside);
     let blocked = occluded(shadow, light.distance, lamp.body);
     return DirectLight(select(value, vec3<f32>(0.0), blocked), 1u);
-}
-
-struct DirectLight {
-    radiance: vec3<f32>,
-    rays: u32,
 }
 
 // The paper's direct light: one shadow ray to each lamp.

@@ -146,21 +146,17 @@ fn sample_cone(strategy: &Strategy, lamp: &Lamp, cone: Cone, u: Vec2) -> LightSa
     }
 }
 
-/// `inside`: whether `origin` is inside the lamp.
+/// A direction to a point of the lamp's surface. With `solid-angle` points of the far side count too,
+/// and the shadow ray need only reach the near side, one chord before them.
 #[inline(always)]
-pub fn sample_light(
+fn sample_area(
     strategy: &Strategy,
     lamp: &Lamp,
-    pole: Basis,
+    axes: Basis,
     origin: Vec3,
     inside: bool,
     u: Vec4,
 ) -> LightSample {
-    let cone = lamp_cone(lamp, origin);
-    if strategy.light_sampler == LightSampler::Cone && cone.open && !inside {
-        return sample_cone(strategy, lamp, cone, Vec2::new(u.x, u.y));
-    }
-    let axes = light_pole(strategy, pole, cone);
     let outward = sample_surface(strategy, axes, u);
     let to_point = Vec3::from(lamp.center) + lamp.radius * outward - origin;
     let distance = to_point.length();
@@ -192,6 +188,30 @@ pub fn sample_light(
         weight: inverse_density,
         inverse_density,
     }
+}
+
+/// `inside`: whether `origin` is inside the lamp.
+#[inline(always)]
+pub fn sample_light(
+    strategy: &Strategy,
+    lamp: &Lamp,
+    pole: Basis,
+    origin: Vec3,
+    inside: bool,
+    u: Vec4,
+) -> LightSample {
+    let cone = lamp_cone(lamp, origin);
+    if strategy.light_sampler == LightSampler::Cone && cone.open && !inside {
+        return sample_cone(strategy, lamp, cone, Vec2::new(u.x, u.y));
+    }
+    sample_area(
+        strategy,
+        lamp,
+        light_pole(strategy, pole, cone),
+        origin,
+        inside,
+        u,
+    )
 }
 
 /// Where a direction meets a lamp.

@@ -1,5 +1,6 @@
 //! The CPU twin: the same renderer in Rust, one file for each shader library, to be read line by
-//! line beside it. It needs no driver and is what the shaders are checked against.
+//! line beside it; `four` alone has no shader, and traces bodies four at a time. It needs no driver and
+//! is what the shaders are checked against.
 
 pub mod r#box;
 pub mod camera;

@@ -111,7 +111,7 @@ impl SceneArrays {
     }
 
     /// Whether the whole scene is one uniform buffer. It is one and not four because lavapipe 22.3
-    /// crashes on kernels that bind more than four.
+    /// writes past a table of its own for a kernel's fourth uniform buffer, and crashes.
     pub fn is_uniform(&self) -> bool {
         let bytes: usize = self
             .list()
