@@ -25,6 +25,7 @@
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge |
 //! | [`points`] | the samplers alone, as data or as a plot |
+//! | [`compare`] | how far two pictures are apart, as numbers and as maps |
 //! | [`place`] | files that are whole or not there |
 //! | [`cli`] | one file a command, each a thin face over the library |
 //!
@@ -53,6 +54,7 @@
 #![forbid(unsafe_code)]
 
 pub mod cli;
+pub mod compare;
 pub mod cpu;
 pub mod device;
 pub mod error;
