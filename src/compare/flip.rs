@@ -11,7 +11,7 @@
 //!
 //! A pixel's error depends on the pixels under its filters alone. Both filters start from the picture
 //! itself, so a strip with the larger of the two radii as margin above and below gives the very bits
-//! of the whole picture. One thread holds one strip: about 108 bytes a pixel of it.
+//! of the whole picture. One thread holds one strip: about 90 bytes a pixel of it.
 //!
 //! # Inputs that FLIP leaves undefined
 //!
@@ -37,7 +37,8 @@ pub const PPD: RangeInclusive<f32> = 2.0..=1000.0;
 /// The most exposures that can be asked for.
 pub const MAX_EXPOSURES: u32 = 128;
 
-/// A strip is at least that many times its margin high: the price of margins stays below a quarter.
+/// A strip is about that many times its margin high, so that margins cost about a quarter; less where
+/// there would be fewer strips than threads.
 const STRIP_MARGINS: usize = 8;
 
 /// Where the automatic range puts white, on the tone-mapped scale (section 2.1 of the paper of 2021).
@@ -195,7 +196,7 @@ fn margin(ppd: f32) -> usize {
     contrast.max(edges).ceil() as usize + 1
 }
 
-/// Height of a strip: low enough for the caches, and every thread gets as many as every other.
+/// Height of a strip: every thread gets as many strips as every other.
 fn strip_rows(height: usize, margin: usize) -> usize {
     let strips = height.div_ceil(STRIP_MARGINS * margin);
     let strips = strips.next_multiple_of(rayon::current_num_threads());
