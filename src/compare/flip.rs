@@ -31,8 +31,8 @@ use std::ops::{Range, RangeInclusive};
 pub const DEFAULT_PPD: f32 = 0.7 * (3840.0 / 0.7) * (PI / 180.0);
 
 /// The pixels per degree that can be asked for: below, the filters fall between the pixels; above, a
-/// filter is wider than pictures are.
-pub const PPD: RangeInclusive<f32> = 2.0..=1000.0;
+/// strip of a picture 17,000 pixels wide exceeds the 2^34 additions that the crate takes.
+pub const PPD: RangeInclusive<f32> = 2.0..=300.0;
 
 /// The most exposures that can be asked for.
 pub const MAX_EXPOSURES: u32 = 128;

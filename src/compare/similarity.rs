@@ -16,7 +16,7 @@
 //! with C1 = 0.01² and C2 = 0.03². 1 is alike, 0 has nothing in common, below 0 is inverted.
 //!
 //! Written here, for the one library that has both, `iqa`, gives no map, takes whole pictures, slides
-//! a window that is not separated over them on one thread, and brings six crates.
+//! a window that is not separated over them on one thread, and brings `tracing`.
 
 use super::{Lines, Map};
 use rayon::prelude::*;

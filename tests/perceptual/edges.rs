@@ -115,7 +115,7 @@ fn what_cannot_be_compared_is_refused() {
     let (a, b) = (Picture::filled(4, 4, 0.5), Picture::filled(4, 5, 0.5));
     let usage = |result: lampray::Result<_>| matches!(result, Err(Error::Usage(_)));
     assert!(usage(flip::ldr(&a, &b, DEFAULT_PPD)));
-    for ppd in [f32::NAN, -1.0, 0.0, 1.9, 1001.0, f32::INFINITY] {
+    for ppd in [f32::NAN, -1.0, 0.0, 1.9, 301.0, f32::INFINITY] {
         assert!(usage(flip::ldr(&a, &a, ppd)), "{ppd}");
     }
     for ppd in [*PPD.start(), *PPD.end()] {

@@ -8,8 +8,8 @@ use serde_json::Value;
 const SSIM: f64 = 1e-7;
 /// The map is of f32; 7e-8 is the most that was seen.
 const PIXEL: f64 = 1e-6;
-/// TensorFlow calculates in f32.
-const MS_SSIM: f64 = 2e-5;
+/// TensorFlow calculates in f32; 4.3e-6 is the most that was seen.
+const MS_SSIM: f64 = 1e-5;
 
 #[test]
 fn ssim_and_ms_ssim_are_what_other_libraries_say() {
