@@ -23,7 +23,7 @@
 //! | [`shader`] | joins the WGSL files, prints constants from the Rust enums, parses and validates |
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
-//! | [`film`] | sums in f64, EXR, PNG, run record, merge |
+//! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`points`] | the samplers alone, as data or as a plot |
 //! | [`compare`] | how far two pictures are apart, as numbers and as maps |
 //! | [`place`] | files that are whole or not there |
@@ -62,6 +62,7 @@ pub mod film;
 pub mod gpu;
 pub mod knobs;
 pub mod pack;
+mod panics;
 pub mod place;
 pub mod points;
 pub mod render;

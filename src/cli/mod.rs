@@ -86,9 +86,9 @@ fn run(line: Lampray) -> Result<()> {
     }
 }
 
-/// One line instead of Rust's own. A driver's panic that the GPU code catches is not reported.
+/// One line instead of Rust's own. A panic that is caught and becomes an error is not reported.
 fn report_panic(panic: &panic::PanicHookInfo) {
-    if crate::gpu::catching() {
+    if crate::panics::catching() {
         return;
     }
     let place = panic

@@ -4,27 +4,29 @@
 //! Tally ─add→ Film ─picture→ Picture ─Target::write→ EXR, PNG with the record inside
 //!                              ↑ ←──── read_exr ────── EXR ─┐
 //!                              └────────── merge ───────────┘
+//!
+//! any program's EXR, PNG ─RasterFile::open→ size ─read→ Raster
 //! ```
 //!
-//! A [`Film`] sums in f64 and knows no files; a [`Picture`] is what a file holds, in f32.
+//! A [`Film`] sums in f64 and knows no files; a [`Picture`] is what lampray's file holds, in f32; a
+//! [`Raster`] is what any file holds, as it stores it.
 
 mod bytes;
-mod channels;
 mod curve;
-mod exr_header;
+mod exr;
+mod input;
+mod limits;
 mod merge;
 mod moments;
 mod output;
 mod parts;
 mod picture;
+mod png;
 mod raster;
+mod raster_file;
 mod read;
-mod read_exr;
-mod read_png;
 mod record;
 mod text;
-mod write_exr;
-mod write_png;
 
 pub use curve::Curve;
 pub use merge::merge;
@@ -32,6 +34,7 @@ pub use moments::{Film, NonFinite};
 pub use output::{Format, Target, name_outputs};
 pub use picture::{Aov, Features, Picture};
 pub use raster::{Noise, Pixels, Raster, Transfer};
+pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
 pub use record::{Record, Seconds};
 pub use text::SCENE_TEXT_LIMIT;

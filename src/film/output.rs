@@ -1,7 +1,7 @@
 //! Pictures as files: the format goes by the extension.
 
-use super::write_exr::write_exr;
-use super::write_png::write_png;
+use super::exr::write_exr;
+use super::png::write_png;
 use super::{Picture, Record};
 use crate::error::{Error, Result};
 use crate::place::Place;

@@ -74,3 +74,18 @@ pub(super) fn parse_record(path: &Path, json: Option<&[u8]>) -> Result<Record> {
     }
     Ok(record)
 }
+
+/// A record that says another size than the picture has is of a picture that this one was cut out
+/// of; it is left aside.
+pub(super) fn of_size(
+    record: Record,
+    width: u32,
+    height: u32,
+    left_aside: &mut Vec<String>,
+) -> Option<Record> {
+    if (record.width, record.height) == (width, height) {
+        return Some(record);
+    }
+    left_aside.push("the record, which is of a picture of another size".into());
+    None
+}

@@ -1,12 +1,13 @@
 //! One graphics device: its pipelines, its buffers, and the dispatches of the four kernels.
 
 use super::adapter::Adapters;
-use super::guard::{Guard, catch};
+use super::guard::Guard;
 use super::pieces::{Allowance, Gathered, pieces};
 use super::pipeline::Pipeline;
 use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
+use crate::panics::catch;
 use crate::shader::{Kernel, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashMap;

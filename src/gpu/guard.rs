@@ -2,33 +2,14 @@
 //! lost device, and no wait is without an end.
 
 use crate::error::{Error, Result};
+use crate::panics::catch;
 use bytemuck::Pod;
-use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// No dispatch is planned to take over half a second; one that takes this long has hung.
 const TIMEOUT: Duration = Duration::from_secs(120);
-
-thread_local! {
-    /// Whether a panic of this thread would be caught and read as a lost device.
-    static CATCHING: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Whether this thread is in a call of wgpu's whose panic is caught: nobody need be told of it.
-pub fn catching() -> bool {
-    CATCHING.get()
-}
-
-/// Runs a call that wgpu may panic in.
-pub(super) fn catch<T>(call: impl FnOnce() -> T) -> std::thread::Result<T> {
-    let outer = CATCHING.replace(true);
-    let outcome = catch_unwind(AssertUnwindSafe(call));
-    CATCHING.set(outer);
-    outcome
-}
 
 /// A device whose every call is watched.
 #[derive(Debug)]

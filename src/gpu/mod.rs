@@ -10,5 +10,4 @@ mod pipeline;
 
 pub use adapter::{Adapters, adapters};
 pub use device::Gpu;
-pub use guard::catching;
 pub use pipeline::{Binding, bindings, binds_scene, scene_bindings};

@@ -1,6 +1,6 @@
 //! The names of an EXR's channels, for writing and for reading.
 
-use super::Picture;
+use crate::film::Picture;
 
 pub(super) const MEAN: [&str; 3] = ["R", "G", "B"];
 pub(super) const VARIANCE: [&str; 3] = ["variance.R", "variance.G", "variance.B"];

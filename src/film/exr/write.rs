@@ -1,8 +1,7 @@
 //! One part, float32, lossless, with the record and the scene text as attributes.
 
-use super::Picture;
 use super::channels::{Plane, planes};
-use super::text;
+use crate::film::{Picture, text};
 use exr::block::UncompressedBlock;
 use exr::block::writer::ChunksWriter;
 use exr::meta::BlockDescription;
@@ -13,7 +12,7 @@ use exr::prelude::{
 use std::io::{self, Seek, Write};
 
 /// Writes a picture whose planes all have its size.
-pub(super) fn write_exr(picture: &Picture, writer: impl Write + Seek) -> io::Result<()> {
+pub(in crate::film) fn write_exr(picture: &Picture, writer: impl Write + Seek) -> io::Result<()> {
     let planes = planes(picture);
     let header = header(picture, &planes)?;
     let channels = header.channels.clone();

@@ -1,6 +1,6 @@
 //! 8-bit RGB for looking at, with the record and the scene text as text chunks.
 
-use super::{Curve, Picture, text};
+use crate::film::{Curve, Picture, text};
 use crate::knobs::Encoding;
 use png::text_metadata::ITXtChunk;
 use png::{BitDepth, ColorType, Encoder, EncodingError, ScaledFloat, SrgbRenderingIntent};
@@ -13,7 +13,7 @@ pub(super) const RECORD_KEYWORD: &str = "lampray";
 pub(super) const SCENE_KEYWORD: &str = "lampray.scene";
 
 /// Writes a picture whose planes all have its size, shown as its record's knobs say.
-pub(super) fn write_png(picture: &Picture, writer: impl Write) -> io::Result<()> {
+pub(in crate::film) fn write_png(picture: &Picture, writer: impl Write) -> io::Result<()> {
     encode(picture, writer).map_err(|error| match error {
         EncodingError::IoError(error) => error,
         error => io::Error::other(error.to_string()),
