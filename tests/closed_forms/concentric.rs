@@ -4,7 +4,8 @@
 //! inner sphere fills k = (r / R)^2, so that one more reflection makes of (inner, outer)
 //! (rho_i outer, rho_o (k inner + (1 - k) outer)). A limit on reflections leaves a partial sum.
 
-use crate::common::{Bench, Case, Family, Form, benches};
+use crate::support::bench::{Bench, benches};
+use crate::support::gate::{Case, Family, Form};
 
 const INNER: f64 = 1.0;
 const OUTER: f64 = 2.0;

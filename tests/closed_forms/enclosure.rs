@@ -3,7 +3,8 @@
 //!
 //! A sphere is a lamp that is sampled from inside; a box is found by scattered rays alone.
 
-use crate::common::{Bench, Case, Family, Form, benches};
+use crate::support::bench::{Bench, benches};
+use crate::support::gate::{Case, Family, Form};
 
 const EMISSION: [f64; 3] = [0.7, 1.0, 2.3];
 const ALBEDO: [f64; 3] = [0.75, 0.5, 0.3];

@@ -1,6 +1,8 @@
 //! Lone bodies under an even sky, what a camera sees directly, and an empty scene.
 
-use crate::common::{Case, Family, Form, benches, erf, integrate};
+use crate::support::bench::benches;
+use crate::support::gate::{Case, Family, Form};
+use crate::support::quadrature::{erf, integrate};
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 const SKY: [f32; 3] = [0.9, 1.3, 0.1];
