@@ -10,9 +10,13 @@ mod support;
 
 mod closed_forms {
     mod agreement;
+    mod bodies;
     mod concentric;
+    mod cross;
     mod enclosure;
     mod lamp;
     mod literal;
-    mod sky;
+    mod lobe;
+    mod seen;
+    mod shade;
 }

@@ -1,6 +1,6 @@
 //! What is rendered, and what must come out.
 
-use super::MOST_RELATIVE_ERROR;
+use super::{MOST_ERRORS, MOST_RELATIVE_ERROR};
 use crate::support::bench::Bench;
 use lampray::film::Film;
 use lampray::scene::{Assignment, Scene};
@@ -12,7 +12,7 @@ const FEW: u64 = 48;
 /// What a render is compared with, and how.
 #[derive(Clone, Copy, Debug)]
 pub enum Form {
-    /// A mean with noise: within 4 standard errors, at a standard error of 0.2 % or less.
+    /// A mean with noise: within 4 standard errors, at a standard error of 0.2 % or less (or the case's own).
     Mean([f64; 3]),
     /// An estimator without variance: every sample within 1e-5.
     Constant([f64; 3]),
@@ -24,14 +24,8 @@ pub enum Form {
 }
 
 impl Form {
-    /// Relative standard error to render to; none where there is no noise.
-    pub(super) fn precision(self) -> Option<f64> {
-        match self {
-            Form::Mean(_) => Some(0.95 * MOST_RELATIVE_ERROR),
-            // The truth's own error takes its part.
-            Form::Measured(..) => Some(0.9 * MOST_RELATIVE_ERROR),
-            Form::Constant(_) | Form::Bits(_) => None,
-        }
+    fn is_noisy(self) -> bool {
+        matches!(self, Form::Mean(_) | Form::Measured(..))
     }
 }
 
@@ -43,6 +37,8 @@ pub struct Case {
     /// `PATH=VALUE`, as for `--set`.
     pub sets: Vec<String>,
     pub form: Form,
+    /// Relative standard error that a comparison may have.
+    pub most_error: f64,
 }
 
 impl Case {
@@ -52,7 +48,14 @@ impl Case {
             scene: scene.into(),
             sets: Vec::new(),
             form,
+            most_error: MOST_RELATIVE_ERROR,
         }
+    }
+
+    /// The case under a gate of another width: four standard errors are at most this share.
+    pub fn within(mut self, share: f64) -> Self {
+        self.most_error = share / MOST_ERRORS;
+        self
     }
 
     /// The case with one more knob set.
@@ -73,17 +76,18 @@ impl Case {
         scene.unwrap_or_else(|error| panic!("{error}\n{}", self.scene))
     }
 
-    pub(super) fn film(&self, bench: Bench, seed: u64, precision: Option<f64>) -> Film {
+    /// Renders to a relative standard error, or a few samples where there is no noise.
+    pub fn film(&self, bench: Bench, seed: u64, precision: f64) -> Film {
         let scene = self.scene(seed);
-        match precision {
-            Some(precision) => bench.measure(&scene, precision),
-            None => bench.film(&scene, 0..FEW),
+        match self.form.is_noisy() {
+            true => bench.measure(&scene, precision),
+            false => bench.film(&scene, 0..FEW),
         }
     }
 }
 
 /// Renders a scene to a relative standard error: its mean, as [`Form::Measured`] wants it.
 pub fn measure_mean(bench: Bench, case: &Case, seed: u64, precision: f64) -> Form {
-    let film = case.film(bench, seed, Some(precision));
+    let film = case.film(bench, seed, precision);
     Form::Measured(film.picture_mean(), film.standard_error())
 }

@@ -32,14 +32,15 @@ impl Family {
 
     /// Renders a case and compares it with what it must be.
     pub fn check(&mut self, bench: Bench, case: &Case) {
-        let film = case.film(bench, self.next_seed(), case.form.precision());
+        // A measured truth's own error takes its part.
+        let film = case.film(bench, self.next_seed(), 0.9 * case.most_error);
         self.made.extend(compare(case, bench, &film));
     }
 
     /// Renders a case that is wrong on purpose: the gate must find it different in some channel.
     /// Being too noisy to say is not enough.
     pub fn reject(&mut self, bench: Bench, mutant: &Case) {
-        let precision = mutant.form.precision().map(|_| MUTANT_PRECISION);
+        let precision = mutant.most_error.min(MUTANT_PRECISION);
         let film = mutant.film(bench, self.next_seed(), precision);
         let made = compare(mutant, bench, &film);
         let caught = made.iter().any(|one| one.fault == Some(Fault::Apart));

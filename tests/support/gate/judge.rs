@@ -1,6 +1,6 @@
 //! One channel of one render beside its truth.
 
-use super::{ARITHMETIC, Case, Form, MOST_ERRORS, MOST_RELATIVE_ERROR};
+use super::{ARITHMETIC, Case, Form, MOST_ERRORS};
 use crate::support::bench::Bench;
 use lampray::film::Film;
 use std::fmt;
@@ -64,11 +64,11 @@ impl fmt::Display for Comparison {
 }
 
 /// Four standard errors, or the arithmetic's own error; and not above a relative standard error.
-fn judge_mean(mean: f64, truth: f64, error: f64) -> Option<Fault> {
+fn judge_mean(mean: f64, truth: f64, error: f64, most_error: f64) -> Option<Fault> {
     let allowed = (MOST_ERRORS * error).max(ARITHMETIC * truth);
     // Written so that a NaN is a fault.
     let near = (mean - truth).abs() <= allowed;
-    let sharp = error <= MOST_RELATIVE_ERROR * truth;
+    let sharp = error <= most_error * truth;
     match (near, sharp) {
         (false, _) => Some(Fault::Apart),
         (true, false) => Some(Fault::Noise),
@@ -94,12 +94,12 @@ fn compare_channel(case: &Case, bench: Bench, film: &Film, channel: usize) -> Co
     let own_error = film.standard_error()[channel];
     let (truth, error, fault) = match case.form {
         Form::Mean(truth) => {
-            let fault = judge_mean(mean, truth[channel], own_error);
+            let fault = judge_mean(mean, truth[channel], own_error, case.most_error);
             (truth[channel], own_error, fault)
         }
         Form::Measured(other, error) => {
             let error = error[channel].hypot(own_error);
-            let fault = judge_mean(mean, other[channel], error);
+            let fault = judge_mean(mean, other[channel], error, case.most_error);
             (other[channel], error, fault)
         }
         Form::Constant(truth) => {
