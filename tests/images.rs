@@ -13,11 +13,10 @@ use lampray::scene::{Assignment, Scene};
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 use support::chance::binomial_at_least;
+use support::gate::MOST_ERRORS;
 
 const SIDE: u32 = 24;
 const SAMPLES: u64 = 1024;
-/// Chance of a false alarm of one pooled test: 7e-6.
-const POOLED: f64 = 4.5;
 /// Chance of a false alarm of one count of pixels.
 const COUNTED: f64 = 1e-5;
 
@@ -78,7 +77,8 @@ struct Verdict {
 
 impl Verdict {
     fn same(&self) -> bool {
-        self.pooled.iter().all(|z| z.abs() <= POOLED) && self.pixels.iter().all(|p| *p >= COUNTED)
+        self.pooled.iter().all(|z| z.abs() <= MOST_ERRORS)
+            && self.pixels.iter().all(|p| *p >= COUNTED)
     }
 }
 
@@ -247,7 +247,7 @@ fn pixels_in_the_wrong_place_are_caught() {
         row.reverse();
     }
     let verdict = compare(&right, &wrong);
-    let pooled = verdict.pooled.iter().all(|z| z.abs() <= POOLED);
+    let pooled = verdict.pooled.iter().all(|z| z.abs() <= MOST_ERRORS);
     assert!(pooled && !verdict.same(), "{verdict:?}");
 }
 

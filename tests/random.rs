@@ -415,21 +415,3 @@ fn every_word_of_an_address_counts() {
         );
     }
 }
-
-#[test]
-fn the_gates_know_their_distributions() {
-    // Percentage points from printed tables.
-    for (statistic, freedom, p) in [
-        (3.841_459, 1.0, 0.05),
-        (18.307_04, 10.0, 0.05),
-        (2.558_212, 10.0, 0.99),
-        (135.806_7, 100.0, 0.01),
-    ] {
-        let above = support::chance::chi_square_above(statistic, freedom);
-        assert!((above - p).abs() < 1e-6, "{statistic} {freedom}: {above}");
-    }
-    assert!((sidak(0.01, 10) - 0.001_004_5).abs() < 1e-7);
-    // Of ten coins at least eight heads: 56 of 1024.
-    let heads = support::chance::binomial_at_least(8, 10, 0.5);
-    assert!((heads - 56.0 / 1024.0).abs() < 1e-12, "{heads}");
-}

@@ -10,9 +10,7 @@ use lampray::render::{Task, render};
 use lampray::scene::{Assignment, Scene};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-
-/// Chance of a false alarm: 7e-6.
-const SIGMAS: f64 = 4.5;
+use support::gate::MOST_ERRORS;
 
 const SCENES: [&str; 9] = [
     "cornell",
@@ -155,7 +153,7 @@ fn assert_mean(name: &str, changes: &[&str], truth: f64) {
     let means = film.picture_mean().into_iter().zip(film.standard_error());
     for (mean, error) in means {
         let apart = (mean - truth).abs();
-        let allowed = SIGMAS * error + 2e-6 * truth;
+        let allowed = MOST_ERRORS * error + 2e-6 * truth;
         assert!(
             apart <= allowed,
             "{name} {changes:?}: {mean} +- {error}, not {truth}"
@@ -202,7 +200,7 @@ fn the_furnace_hides_what_stands_in_it() {
         let count = (BLOCK * BLOCK) as f64;
         let (mean, error) = (mean / count, variance.sqrt() / count);
         assert!(
-            (mean - 0.5).abs() <= SIGMAS * error,
+            (mean - 0.5).abs() <= MOST_ERRORS * error,
             "block {block}: {mean} +- {error}"
         );
     }

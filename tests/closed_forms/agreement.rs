@@ -2,7 +2,8 @@
 //! boxes, two lamps, a box that shines and a sky. Every setting that claims no bias must give the picture
 //! of one long render.
 
-use crate::common::{Bench, Case, Family, Form, benches, measure_mean};
+use crate::support::bench::{Bench, benches};
+use crate::support::gate::{Case, Family, Form, measure_mean};
 use std::sync::LazyLock;
 
 const SCENE: &str = r#"version = 1

@@ -6,7 +6,8 @@
 //! x = sqrt(1 / s^2 - 1), y = -x cot omega, w = sin omega sqrt(1 - y^2),
 //! F = (s^2 (cos omega acos y - x w) + atan(w / x)) / pi.
 
-use crate::common::{Case, Family, Form, benches};
+use crate::support::bench::benches;
+use crate::support::gate::{Case, Family, Form};
 use std::f64::consts::PI;
 
 /// Fraction of the light that a sphere of half angle `half` would send if it filled the half-space.

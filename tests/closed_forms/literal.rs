@@ -2,7 +2,9 @@
 //! 2 pi (1 - sqrt(1 - s^2 / d^2)), d its own distance, wherever the lamp itself is seen. Its mean
 //! is not the truth; here it is integrated over each sampler's law.
 
-use crate::common::{Case, Family, Form, benches, integrate};
+use crate::support::bench::benches;
+use crate::support::gate::{Case, Family, Form};
+use crate::support::quadrature::integrate;
 use std::f64::consts::PI;
 
 #[derive(Clone, Copy, Debug)]

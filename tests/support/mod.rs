@@ -1,8 +1,12 @@
-//! What the tests of both devices share: one GPU a process, strategies, chance.
+//! What the tests share: one GPU a process, renders that are long enough, the gates they must pass,
+//! chance, quadrature, and inputs.
 
-#![allow(dead_code, reason = "each test file uses its own part")]
+#![allow(dead_code, unused_imports, reason = "each test file uses its own part")]
 
+pub mod bench;
 pub mod chance;
+pub mod gate;
+pub mod quadrature;
 pub mod stream;
 
 use lampray::gpu::{Gpu, adapters};

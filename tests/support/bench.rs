@@ -1,12 +1,11 @@
 //! Devices to render on, and renders that are long enough.
 
+use super::gpu;
 use lampray::device::Device;
 use lampray::film::Film;
-use lampray::gpu::{Gpu, adapters};
 use lampray::render::{Task, render};
 use lampray::scene::Scene;
 use std::ops::{ControlFlow, Range};
-use std::sync::{LazyLock, Mutex, PoisonError};
 
 /// Samples of each pixel that tell how many more are needed; they are thrown away.
 const PILOT: u64 = 32;
@@ -20,32 +19,14 @@ pub enum Bench {
     Vulkan,
 }
 
-/// One graphics device for the whole process: software drivers keep memory for each that was open.
-static VULKAN: LazyLock<Option<Mutex<Gpu>>> = LazyLock::new(|| {
-    let found = adapters();
-    let Some(info) = found.infos().next() else {
-        let required = std::env::var("LAMPRAY_REQUIRE_GPU").is_ok_and(|value| value == "1");
-        assert!(
-            !required,
-            "LAMPRAY_REQUIRE_GPU=1, and there is no Vulkan device"
-        );
-        return None;
-    };
-    println!("Vulkan device: {} ({})", info.name, info.driver);
-    let gpu = Gpu::open(&found, 0).unwrap_or_else(|error| panic!("{error}"));
-    Some(Mutex::new(gpu))
-});
-
 /// The CPU twin, and the first graphics device where there is one. Without one, a line says that
 /// half of the test is not run; with `LAMPRAY_REQUIRE_GPU=1` the test fails.
 pub fn benches() -> Vec<Bench> {
-    if VULKAN.is_some() {
-        return vec![Bench::Twin, Bench::Vulkan];
-    }
     let test = std::thread::current();
-    let name = test.name().unwrap_or("a test").to_string();
-    eprintln!("NOT RUN on Vulkan, for there is no Vulkan device: {name}");
-    vec![Bench::Twin]
+    match gpu(test.name().unwrap_or("a test")) {
+        Some(_) => vec![Bench::Twin, Bench::Vulkan],
+        None => vec![Bench::Twin],
+    }
 }
 
 impl Bench {
@@ -54,9 +35,7 @@ impl Bench {
         match self {
             Bench::Twin => trace(&mut lampray::cpu::Cpu::new(), scene, samples),
             Bench::Vulkan => {
-                let gpu = VULKAN.as_ref().expect("only benches that are there");
-                // Another test's failure leaves the device as good as it was.
-                let mut gpu = gpu.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut gpu = gpu("a render").expect("only benches that are there");
                 trace(&mut *gpu, scene, samples)
             }
         }

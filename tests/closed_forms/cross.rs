@@ -1,0 +1,171 @@
+//! The knobs that must not change an expected picture, crossed.
+//!
+//! [`full`] is every sampler with every strategy, rule and way to scatter; [`covering`] is sixteen of
+//! them in which every pair of values stands, by Bush's orthogonal array OA(16, 5, 4, 2) (Bush
+//! 1952, "Orthogonal arrays of index unity"). [`crossed`] is the full cross on the twin and the covering
+//! one on a graphics device, whose driver compiles each choice for a tenth of a second. Either way
+//! every value meets every device. Tests of interruption start at the camera's hit.
+
+use crate::support::bench::Bench;
+use crate::support::gate::{Case, Family};
+
+const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
+const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
+const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
+const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
+const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
+const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
+
+/// One value of each knob, as a place in its list above.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Choice {
+    sampler: usize,
+    pole: usize,
+    strategy: usize,
+    rule: usize,
+    diffuse: usize,
+    order: usize,
+}
+
+impl Choice {
+    pub fn apply(self, case: Case) -> Case {
+        case.set("light.sampler", SAMPLERS[self.sampler])
+            .set("light.pole", POLES[self.pole])
+            .set("light.strategy", STRATEGIES[self.strategy])
+            .set("interruption.rule", RULES[self.rule])
+            .set("interruption.order", ORDERS[self.order])
+            .set("interruption.start", 0)
+            .set("scatter.diffuse", DIFFUSE[self.diffuse])
+    }
+
+    /// Whether every path goes on, with the albedo as its weight.
+    pub fn is_plain(self) -> bool {
+        RULES[self.rule] == "none" && DIFFUSE[self.diffuse] == "cosine"
+    }
+
+    /// One of a few, going round by the sum of the places: no single knob decides it.
+    pub fn pick<T: Copy>(self, list: &[T]) -> T {
+        let places = [self.sampler, self.strategy, self.rule, self.diffuse];
+        list[places.iter().sum::<usize>() % list.len()]
+    }
+}
+
+/// All 96 of sampler, strategy, rule and way to scatter, and those of the first sampler, whose law
+/// turns with the pole, with the pole at the receiver too. Poles and orders go round beside them.
+fn full() -> Vec<Choice> {
+    let mut all = Vec::new();
+    for index in 0..120 {
+        let (variant, strategy, rule, diffuse) =
+            (index / 24, index / 8 % 3, index / 2 % 4, index % 2);
+        let poles = [
+            2 * ((rule + diffuse) % 2),
+            (strategy + rule) % 3,
+            (strategy + diffuse) % 3,
+            (rule + diffuse) % 3,
+            1,
+        ];
+        all.push(Choice {
+            sampler: variant % 4,
+            pole: poles[variant],
+            strategy,
+            rule,
+            diffuse,
+            order: (variant + strategy + rule / 2) % 2,
+        });
+    }
+    all
+}
+
+/// Sixteen rows with every pair of values. Columns are a, b and a + k b over the field of four
+/// elements, k = 1, w, w^2; the last one's two bits are two knobs. The second device has other triples.
+pub fn covering(bench: Bench) -> Vec<Choice> {
+    const BY_W: [usize; 4] = [0, 2, 3, 1];
+    let row = |index: usize| {
+        let (a, b) = (index / 4, index % 4);
+        let last = a ^ BY_W[BY_W[b]];
+        Choice {
+            sampler: a,
+            pole: [0, 1, 2, 1][a ^ BY_W[b]],
+            strategy: [0, 1, 2, 1][a ^ b ^ (bench as usize)],
+            rule: b,
+            diffuse: last % 2,
+            order: last / 2,
+        }
+    };
+    (0..16).map(row).collect()
+}
+
+/// The full cross on the twin, the covering one on a graphics device.
+pub fn crossed(bench: Bench) -> Vec<Choice> {
+    match bench {
+        Bench::Twin => full(),
+        Bench::Vulkan => covering(bench),
+    }
+}
+
+/// Checks the case of each choice.
+pub fn check_all(
+    family: &mut Family,
+    bench: Bench,
+    choices: &[Choice],
+    case: impl Fn(Choice) -> Case,
+) {
+    for &choice in choices {
+        family.check(bench, &choice.apply(case(choice)));
+    }
+}
+
+/// A choice's values in the order of [`SIZES`].
+fn values(choice: &Choice) -> [usize; 6] {
+    let Choice {
+        sampler,
+        pole,
+        strategy,
+        rule,
+        diffuse,
+        order,
+    } = *choice;
+    [sampler, strategy, rule, diffuse, order, pole]
+}
+
+const SIZES: [usize; 6] = [4, 3, 4, 2, 2, 3];
+
+fn count<T: std::hash::Hash + Eq>(choices: &[Choice], of: impl Fn([usize; 6]) -> T) -> usize {
+    let all: std::collections::HashSet<_> = choices.iter().map(|one| of(values(one))).collect();
+    all.len()
+}
+
+#[test]
+fn the_covering_cross_holds_every_pair() {
+    for bench in [Bench::Twin, Bench::Vulkan] {
+        for i in 0..6 {
+            for j in i + 1..6 {
+                let pairs = count(&covering(bench), |v| (v[i], v[j]));
+                assert_eq!(pairs, SIZES[i] * SIZES[j], "{bench:?}: {i} with {j}");
+            }
+        }
+    }
+    let both = [covering(Bench::Twin), covering(Bench::Vulkan)].concat();
+    assert!(count(&both, |v| (v[0], v[1], v[2])) >= 28);
+}
+
+#[test]
+fn the_full_cross_holds_all_of_them() {
+    let all = full();
+    assert_eq!(count(&all, |v| [v[0], v[1], v[2], v[3]]), 96);
+    let aimed: Vec<_> = all
+        .iter()
+        .filter(|c| (c.sampler, c.pole) == (0, 1))
+        .copied()
+        .collect();
+    assert_eq!(count(&aimed, |v| [v[1], v[2], v[3]]), 24);
+    for i in 0..6 {
+        for j in i + 1..6 {
+            assert_eq!(
+                count(&all, |v| (v[i], v[j])),
+                SIZES[i] * SIZES[j],
+                "{i} {j}"
+            );
+        }
+    }
+}
