@@ -100,7 +100,7 @@ fn images_of_other_programs() {
     assert!(refusal(&png).contains("not written by lampray"));
 }
 
-fn attribute(name: &str, kind: &str, value: &[u8]) -> Vec<u8> {
+pub fn attribute(name: &str, kind: &str, value: &[u8]) -> Vec<u8> {
     let mut bytes = [name.as_bytes(), b"\0", kind.as_bytes(), b"\0"].concat();
     bytes.extend((value.len() as u32).to_le_bytes());
     bytes.extend(value);

@@ -25,8 +25,8 @@ pub(super) struct Header {
     pub numbered: bool,
     /// Names of the parts after the first.
     pub others: Vec<String>,
-    /// Entries of the table of offsets, of all parts.
-    chunks: u64,
+    /// Blocks of all parts and levels, each with an entry in the table of offsets.
+    pub chunks: u64,
 }
 
 impl Header {
@@ -93,6 +93,6 @@ impl Header {
     /// Steps over the table of offsets: it is for jumping to blocks, and here all are read, one
     /// after another. So it may say what it likes.
     pub(super) fn skip_offsets(&self, path: &Path, reader: &mut impl Read) -> Result<()> {
-        bytes::skip(path, reader, self.chunks * 8)
+        bytes::skip(path, reader, self.chunks.saturating_mul(8))
     }
 }
