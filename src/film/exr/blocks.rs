@@ -21,6 +21,8 @@ use std::path::Path;
 const BLOCK_LIMIT: usize = 256 << 20;
 /// So many bytes, decompressed, are decompressed at once, on all cores.
 const BATCH: usize = 16 << 20;
+/// Tiles of one pixel each would need far more memory for their places than for their pixels.
+const BATCH_BLOCKS: usize = 4096;
 
 /// Reads the channels that are wanted; the table of offsets is what comes next in the file.
 pub(super) fn read_planes(
@@ -112,7 +114,7 @@ impl<'a> Blocks<'a> {
     ) -> Result<Vec<(Area, Vec<u8>)>> {
         let mut batch = Vec::new();
         let mut size = 0;
-        while progress.missing > 0 && size < BATCH {
+        while progress.missing > 0 && size < BATCH && batch.len() < BATCH_BLOCKS {
             if let Some(area) = self.read_place(reader, progress)? {
                 batch.push((area, self.read_pixels(reader, area)?));
                 size += self.size(area);
@@ -151,7 +153,7 @@ impl<'a> Blocks<'a> {
     /// Deep pixels have a size for their numbers of values, and two for the values.
     fn skip_pixels(&self, reader: &mut impl Read, kind: Kind) -> Result<()> {
         let size = match kind {
-            Kind::ScanLines | Kind::Tiles => u64::from(self.integer(reader)? as u32),
+            Kind::ScanLines | Kind::Tiles => u64::from(bytes::u32_le(self.path, reader)?),
             Kind::DeepScanLines | Kind::DeepTiles => {
                 let numbers = u64::from_le_bytes(bytes::array(self.path, reader)?);
                 let values = u64::from_le_bytes(bytes::array(self.path, reader)?);
@@ -167,7 +169,7 @@ impl<'a> Blocks<'a> {
     }
 
     fn integer(&self, reader: &mut impl Read) -> Result<i32> {
-        Ok(i32::from_le_bytes(bytes::array(self.path, reader)?))
+        bytes::i32_le(self.path, reader)
     }
 
     /// A tile says its column and row, scan lines the uppermost of them.
@@ -192,7 +194,7 @@ impl<'a> Blocks<'a> {
 
     /// A block that does not get smaller is stored as it is, so none is larger than its pixels.
     fn read_pixels(&self, reader: &mut impl Read, area: Area) -> Result<Vec<u8>> {
-        let size = self.integer(reader)? as u32;
+        let size = bytes::u32_le(self.path, reader)?;
         if size == 0 || size as usize > self.size(area) {
             return self.fail(format!("a block of pixels of {size} bytes"));
         }
