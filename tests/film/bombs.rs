@@ -287,3 +287,60 @@ fn chunks_that_lie() {
         assert_refused(&path, &png(4, 4, kind, one), "the header is broken");
     }
 }
+
+/// Bits from the most significant one on.
+#[derive(Default)]
+struct Bits(Vec<u8>, usize);
+
+impl Bits {
+    fn put(&mut self, value: u32, count: usize) {
+        for bit in (0..count).rev() {
+            if self.1.is_multiple_of(8) {
+                self.0.push(0);
+            }
+            let byte = self.0.len() - 1;
+            self.0[byte] |= ((value >> bit & 1) as u8) << (7 - self.1 % 8);
+            self.1 += 1;
+        }
+    }
+}
+
+/// A PIZ block of a few thousand values whose codes of 30 bits differ in the last 16 only, the
+/// last of them each time, and of runs of one.
+fn slow_block(values: usize) -> Vec<u8> {
+    let mut table = Bits::default();
+    for _ in 0..65537 {
+        table.put(30, 6);
+    }
+    let mut data = Bits::default();
+    let room = values * 2 - 8192 - table.0.len() - 4000;
+    let slow = room * 8 / 30;
+    for _ in 0..slow {
+        data.put(65535, 30);
+    }
+    let mut left = values - slow;
+    while left > 0 {
+        let run = left.min(255);
+        data.put(65536, 30);
+        data.put(run as u32, 8);
+        left -= run;
+    }
+    let sizes = [0, 65536, table.0.len() as u32, data.1 as u32, 0];
+    let coded = [sizes.map(u32::to_le_bytes).concat(), table.0, data.0].concat();
+    let head = [0_u16.to_le_bytes(), 8191_u16.to_le_bytes()].concat();
+    let size = (coded.len() as u32).to_le_bytes();
+    [&head[..], &[255; 8192], &size, &coded].concat()
+}
+
+/// Read as it stands, this takes 20 seconds.
+#[test]
+fn codes_that_take_for_ever() {
+    let folder = Folder::new();
+    let block = slow_block(8192 * 32);
+    assert!(block.len() < 8192 * 32 * 2);
+    let mut bytes = exr(0, [0, 0, 8191, 31], 4, &[("Y", 1)], &[]);
+    bytes.extend([0; 12]);
+    bytes.extend((block.len() as u32).to_le_bytes());
+    bytes.extend(block);
+    assert_refused(&folder.join("a.exr"), &bytes, "codes that no encoder makes");
+}

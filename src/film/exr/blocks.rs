@@ -1,5 +1,6 @@
 //! Reads the blocks of the first part, in the order in which the file has them.
 
+use super::codebook;
 use super::header::Header;
 use super::layout::{Area, Layout};
 use super::part::{Kind, Part};
@@ -12,7 +13,7 @@ use exr::math::{RoundingMode, Vec2};
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{IntegerBounds, LevelMode, TileDescription};
 use exr::meta::header::Header as ExrHeader;
-use exr::prelude::{ChannelDescription, LineOrder, SmallVec, Text};
+use exr::prelude::{ChannelDescription, Compression, LineOrder, SmallVec, Text};
 use rayon::prelude::*;
 use std::io::Read;
 use std::path::Path;
@@ -208,6 +209,11 @@ impl<'a> Blocks<'a> {
             size: Vec2(area.width, area.height),
         };
         let compression = self.header.part.compression;
+        // What is as large as its pixels is stored as it is.
+        let coded = compression == Compression::PIZ && compressed.len() < self.size(area);
+        if coded && codebook::is_made_up(&compressed, self.size(area) / 2) {
+            return self.fail("broken pixels: codes that no encoder makes");
+        }
         let decompress =
             || compression.decompress_image_section_from_le(&self.exr, compressed, bounds, false);
         match catch(decompress) {
