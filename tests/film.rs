@@ -2,6 +2,7 @@
 
 mod film {
     mod bombs;
+    mod craft;
     mod curve;
     mod damage;
     mod files;

@@ -1,6 +1,5 @@
 //! What any image file holds, lampray's own or another program's, as far as comparing needs it.
 
-use super::curve::srgb;
 use super::{Record, tables};
 use std::ops::Range;
 
@@ -89,6 +88,7 @@ impl Raster {
     /// black.
     pub fn display_line(&self, y: u32, gain: f32, line: &mut [[f32; 3]]) {
         let row = self.row(y);
+        let display = tables::encoder();
         match &self.pixels {
             Pixels::Linear(pixels) => copy(&pixels[row], line, |light| display(light * gain)),
             // Stored as they are shown.
@@ -125,16 +125,10 @@ fn copy<T: Copy>(row: &[[T; 3]], line: &mut [[f32; 3]], value: impl Fn(T) -> f32
     }
 }
 
-/// The sRGB value of light that the gain has been applied to.
-fn display(light: f32) -> f32 {
-    // NaN is not above zero either.
-    let light = if light > 0.0 { light.min(1.0) } else { 0.0 };
-    srgb(f64::from(light)) as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::film::curve::srgb;
 
     fn raster(width: u32, pixels: Pixels) -> Raster {
         Raster {
@@ -210,7 +204,7 @@ mod tests {
 
     #[test]
     fn linear_values_stay_and_are_cut_off_only_for_looking() {
-        let pixels = vec![
+        let pixels = [
             [0.0; 3],
             [f32::NAN, f32::INFINITY, -2.0],
             [0.25, 0.5, 3.0],

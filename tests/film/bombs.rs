@@ -1,84 +1,12 @@
 //! Files made to do harm to a reader of any program's images: refused at once, and with a reason.
 
-use super::hostile::attribute;
+use super::craft::{FLOAT, RGB, RGB8, attribute, block, exr, png, png_chunk, zlib};
 use super::sample::Folder;
 use lampray::Error;
 use lampray::film::{Pixels, RasterFile};
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
-
-const FLOAT: u32 = 2;
-const RGB: [(&str, u32); 3] = [("B", FLOAT), ("G", FLOAT), ("R", FLOAT)];
-
-/// The magic number and a header; the window is left, top, right, bottom.
-fn exr(
-    flags: u32,
-    window: [i32; 4],
-    compression: u8,
-    channels: &[(&str, u32)],
-    more: &[Vec<u8>],
-) -> Vec<u8> {
-    let mut list = Vec::new();
-    for (name, kind) in channels {
-        list.extend([name.as_bytes(), b"\0"].concat());
-        list.extend([*kind, 0, 1, 1].map(u32::to_le_bytes).concat());
-    }
-    list.push(0);
-    let mut bytes = b"\x76\x2f\x31\x01".to_vec();
-    bytes.extend((2 | flags).to_le_bytes());
-    bytes.extend(attribute("channels", "chlist", &list));
-    bytes.extend(attribute("compression", "compression", &[compression]));
-    let window = window.map(i32::to_le_bytes).concat();
-    bytes.extend(attribute("dataWindow", "box2i", &window));
-    bytes.extend(more.concat());
-    bytes.push(0);
-    bytes
-}
-
-/// The lines of a block without compression, all of one value.
-fn block(y: i32, width: usize, value: f32) -> Vec<u8> {
-    let pixels = [value; 3].repeat(width).into_iter().map(f32::to_le_bytes);
-    let pixels: Vec<u8> = pixels.flatten().collect();
-    [
-        &y.to_le_bytes()[..],
-        &(pixels.len() as u32).to_le_bytes(),
-        &pixels,
-    ]
-    .concat()
-}
-
-fn png_chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
-    let mut crc = flate2::Crc::new();
-    crc.update(kind);
-    crc.update(data);
-    let size = (data.len() as u32).to_be_bytes();
-    [&size, &kind[..], data, &crc.sum().to_be_bytes()].concat()
-}
-
-/// `kind` is depth, colours, compression, filter, interlacing.
-fn png(width: u32, height: u32, kind: [u8; 5], chunks: &[Vec<u8>]) -> Vec<u8> {
-    let header = [&width.to_be_bytes()[..], &height.to_be_bytes(), &kind].concat();
-    let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
-    bytes.extend(png_chunk(b"IHDR", &header));
-    bytes.extend(chunks.concat());
-    bytes.extend(png_chunk(b"IEND", &[]));
-    bytes
-}
-
-fn zlib(zeros: usize) -> Vec<u8> {
-    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
-    let part = vec![0; zeros.min(1 << 20)];
-    for start in (0..zeros).step_by(1 << 20) {
-        encoder
-            .write_all(&part[..part.len().min(zeros - start)])
-            .unwrap();
-    }
-    encoder.finish().unwrap()
-}
-
-const RGB8: [u8; 5] = [8, 2, 0, 0, 0];
 
 /// Two files at once, as they are compared.
 fn outcome(path: &Path, bytes: &[u8]) -> Result<lampray::film::Raster, String> {
@@ -324,7 +252,8 @@ fn chunks_that_lie() {
     let folder = Folder::new();
     let path = folder.join("a.png");
     let pixels = png_chunk(b"IDAT", &zlib(4 * 13));
-    let good = png(4, 4, RGB8, std::slice::from_ref(&pixels));
+    let one = std::slice::from_ref(&pixels);
+    let good = png(4, 4, RGB8, one);
     assert!(outcome(&path, &good).is_ok());
     let at = good
         .windows(4)
@@ -342,11 +271,7 @@ fn chunks_that_lie() {
     bytes[at + 9] ^= 1;
     assert_refused(&path, &bytes, "broken pixels");
     assert_refused(&path, &png(4, 4, RGB8, &[]), "without pixels");
-    assert_refused(
-        &path,
-        &png(4, 4, [8, 3, 0, 0, 0], &[pixels.clone()]),
-        "broken pixels",
-    );
+    assert_refused(&path, &png(4, 4, [8, 3, 0, 0, 0], one), "broken pixels");
     let text = png_chunk(b"tEXt", b"x\0y");
     let late = [pixels.clone(), text, pixels.clone()];
     assert!(outcome(&path, &png(4, 4, RGB8, &late)).is_ok());
@@ -356,13 +281,66 @@ fn chunks_that_lie() {
         [16, 3, 0, 0, 0],
         [4, 2, 0, 0, 0],
     ] {
-        assert_refused(&path, &png(4, 4, kind, &[pixels.clone()]), "that PNG lacks");
+        assert_refused(&path, &png(4, 4, kind, one), "that PNG lacks");
     }
     for kind in [[8, 2, 1, 0, 0], [8, 2, 0, 1, 0], [8, 2, 0, 0, 2]] {
-        assert_refused(
-            &path,
-            &png(4, 4, kind, &[pixels.clone()]),
-            "the header is broken",
-        );
+        assert_refused(&path, &png(4, 4, kind, one), "the header is broken");
     }
+}
+
+/// Bits from the most significant one on.
+#[derive(Default)]
+struct Bits(Vec<u8>, usize);
+
+impl Bits {
+    fn put(&mut self, value: u32, count: usize) {
+        for bit in (0..count).rev() {
+            if self.1.is_multiple_of(8) {
+                self.0.push(0);
+            }
+            let byte = self.0.len() - 1;
+            self.0[byte] |= ((value >> bit & 1) as u8) << (7 - self.1 % 8);
+            self.1 += 1;
+        }
+    }
+}
+
+/// A PIZ block of a few thousand values whose codes of 30 bits differ in the last 16 only, the
+/// last of them each time, and of runs of one.
+fn slow_block(values: usize) -> Vec<u8> {
+    let mut table = Bits::default();
+    for _ in 0..65537 {
+        table.put(30, 6);
+    }
+    let mut data = Bits::default();
+    let room = values * 2 - 8192 - table.0.len() - 4000;
+    let slow = room * 8 / 30;
+    for _ in 0..slow {
+        data.put(65535, 30);
+    }
+    let mut left = values - slow;
+    while left > 0 {
+        let run = left.min(255);
+        data.put(65536, 30);
+        data.put(run as u32, 8);
+        left -= run;
+    }
+    let sizes = [0, 65536, table.0.len() as u32, data.1 as u32, 0];
+    let coded = [sizes.map(u32::to_le_bytes).concat(), table.0, data.0].concat();
+    let head = [0_u16.to_le_bytes(), 8191_u16.to_le_bytes()].concat();
+    let size = (coded.len() as u32).to_le_bytes();
+    [&head[..], &[255; 8192], &size, &coded].concat()
+}
+
+/// Read as it stands, this takes 20 seconds.
+#[test]
+fn codes_that_take_for_ever() {
+    let folder = Folder::new();
+    let block = slow_block(8192 * 32);
+    assert!(block.len() < 8192 * 32 * 2);
+    let mut bytes = exr(0, [0, 0, 8191, 31], 4, &[("Y", 1)], &[]);
+    bytes.extend([0; 12]);
+    bytes.extend((block.len() as u32).to_le_bytes());
+    bytes.extend(block);
+    assert_refused(&folder.join("a.exr"), &bytes, "codes that no encoder makes");
 }

@@ -116,7 +116,7 @@ fn the_first_of_many_parts() {
 
 #[test]
 fn the_picture_among_other_channels() {
-    let blender = read("blender.exr");
+    let blender = read("blender_names.exr");
     assert_formula(&blender, formula);
     assert_eq!(blender.format, "EXR, half, ZIP, layer ViewLayer.Combined");
     let others = "channels Composite.Vector.R, ViewLayer.Depth.Z and 3 more";
@@ -141,6 +141,23 @@ fn the_picture_among_other_channels() {
     assert_eq!(linear(&aov), [[0.75; 3]; 48]);
     let others = "channels depth.T, image.A and 3 more";
     assert_eq!(aov.left_aside, [others]);
+}
+
+/// A sky of one colour.
+#[test]
+fn blender_itself() {
+    let half = read("blender_half.exr");
+    assert_eq!(linear(&half), [[0.25, 0.5, 0.75]; 12 * 8]);
+    assert_eq!(half.format, "EXR, half, PIZ");
+    assert_eq!(half.left_aside, ["alpha"]);
+    let layers = read("blender_multilayer.exr");
+    assert_eq!(linear(&layers), [[0.25, 0.5, 0.75]; 12 * 8]);
+    assert_eq!(layers.format, "EXR, float, ZIP, layer ViewLayer.Combined");
+    let others = "parts ViewLayer.Depth, ViewLayer.Normal and 1 more";
+    assert_eq!(layers.left_aside, ["alpha", others]);
+    let png = read("blender_16.png");
+    assert_eq!(png.format, "PNG, 16 bits");
+    assert!(matches!(png.pixels, Pixels::Words(pixels, _) if pixels == [pixels[0]; 12 * 8]));
 }
 
 #[test]
@@ -171,6 +188,7 @@ fn values_that_are_not_finite_are_kept() {
 fn what_is_not_read_is_refused_with_a_remedy() {
     for (name, reasons) in [
         ("dwaa_half.exr", ["DWAA", "ZIP"]),
+        ("blender_dwaa.exr", ["DWAA", "PIZ"]),
         ("subsampled.exr", ["\"RY\"", "2 x 2"]),
         (
             "no_picture.exr",

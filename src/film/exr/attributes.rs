@@ -42,7 +42,7 @@ impl Attributes {
         }
         while !name.is_empty() {
             let kind = read_name(path, reader)?;
-            let size = u32::from_le_bytes(bytes::array(path, reader)?) as usize;
+            let size = bytes::u32_le(path, reader)? as usize;
             attributes.read_value(path, reader, (&name, &kind), size)?;
             name = read_name(path, reader)?;
         }
@@ -85,12 +85,11 @@ impl Attributes {
             b"channels" => self.channels = Some(channels(path, rest)?),
             b"compression" => self.compression = Some(bytes::array::<1>(path, rest)?[0]),
             b"dataWindow" => {
-                let edges = bytes::array::<16>(path, rest)?;
-                let edge = |i: usize| i32::from_le_bytes([0, 1, 2, 3].map(|b| edges[4 * i + b]));
-                self.window = Some([edge(0), edge(1), edge(2), edge(3)]);
+                let mut edge = || bytes::i32_le(path, rest);
+                self.window = Some([edge()?, edge()?, edge()?, edge()?]);
             }
             b"tiles" => self.tiling = Some(tiling(path, rest)?),
-            b"chunkCount" => self.chunks = Some(u32::from_le_bytes(bytes::array(path, rest)?)),
+            b"chunkCount" => self.chunks = Some(bytes::u32_le(path, rest)?),
             b"type" => self.kind = Some(part_kind(path, &value)?),
             _ => self.name = Some(String::from_utf8_lossy(&value).into_owned()),
         }
@@ -122,7 +121,7 @@ fn channels(path: &Path, value: &mut impl Read) -> Result<Vec<Channel>> {
             return Ok(channels);
         }
         let name = text::utf8(path, "the name of a channel", name)?;
-        let samples = match u32::from_le_bytes(bytes::array(path, value)?) {
+        let samples = match bytes::u32_le(path, value)? {
             0 => SampleType::U32,
             1 => SampleType::F16,
             2 => SampleType::F32,
@@ -132,8 +131,7 @@ fn channels(path: &Path, value: &mut impl Read) -> Result<Vec<Channel>> {
             }
         };
         let [linear, _, _, _] = bytes::array(path, value)?;
-        let sampling =
-            [bytes::array(path, value)?, bytes::array(path, value)?].map(i32::from_le_bytes);
+        let sampling = [bytes::i32_le(path, value)?, bytes::i32_le(path, value)?];
         if channels.len() == CHANNEL_LIMIT || channels.iter().any(|channel| channel.name == name) {
             let reason = format!("channel {name:?} is there twice, or one too many");
             return Err(bytes::data(path, reason));
@@ -148,7 +146,7 @@ fn channels(path: &Path, value: &mut impl Read) -> Result<Vec<Channel>> {
 }
 
 fn tiling(path: &Path, value: &mut impl Read) -> Result<Tiling> {
-    let size = [bytes::array(path, value)?, bytes::array(path, value)?].map(u32::from_le_bytes);
+    let size = [bytes::u32_le(path, value)?, bytes::u32_le(path, value)?];
     let [mode] = bytes::array(path, value)?;
     if size.contains(&0) || mode & 15 > 2 || mode >> 4 > 1 {
         return Err(bytes::data(path, "a broken description of tiles"));

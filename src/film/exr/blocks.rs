@@ -1,5 +1,6 @@
 //! Reads the blocks of the first part, in the order in which the file has them.
 
+use super::codebook;
 use super::header::Header;
 use super::layout::{Area, Layout};
 use super::part::{Kind, Part};
@@ -12,7 +13,7 @@ use exr::math::{RoundingMode, Vec2};
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{IntegerBounds, LevelMode, TileDescription};
 use exr::meta::header::Header as ExrHeader;
-use exr::prelude::{ChannelDescription, LineOrder, SmallVec, Text};
+use exr::prelude::{ChannelDescription, Compression, LineOrder, SmallVec, Text};
 use rayon::prelude::*;
 use std::io::Read;
 use std::path::Path;
@@ -21,6 +22,8 @@ use std::path::Path;
 const BLOCK_LIMIT: usize = 256 << 20;
 /// So many bytes, decompressed, are decompressed at once, on all cores.
 const BATCH: usize = 16 << 20;
+/// Tiles of one pixel each would need far more memory for their places than for their pixels.
+const BATCH_BLOCKS: usize = 4096;
 
 /// Reads the channels that are wanted; the table of offsets is what comes next in the file.
 pub(super) fn read_planes(
@@ -112,7 +115,7 @@ impl<'a> Blocks<'a> {
     ) -> Result<Vec<(Area, Vec<u8>)>> {
         let mut batch = Vec::new();
         let mut size = 0;
-        while progress.missing > 0 && size < BATCH {
+        while progress.missing > 0 && size < BATCH && batch.len() < BATCH_BLOCKS {
             if let Some(area) = self.read_place(reader, progress)? {
                 batch.push((area, self.read_pixels(reader, area)?));
                 size += self.size(area);
@@ -151,7 +154,7 @@ impl<'a> Blocks<'a> {
     /// Deep pixels have a size for their numbers of values, and two for the values.
     fn skip_pixels(&self, reader: &mut impl Read, kind: Kind) -> Result<()> {
         let size = match kind {
-            Kind::ScanLines | Kind::Tiles => u64::from(self.integer(reader)? as u32),
+            Kind::ScanLines | Kind::Tiles => u64::from(bytes::u32_le(self.path, reader)?),
             Kind::DeepScanLines | Kind::DeepTiles => {
                 let numbers = u64::from_le_bytes(bytes::array(self.path, reader)?);
                 let values = u64::from_le_bytes(bytes::array(self.path, reader)?);
@@ -167,7 +170,7 @@ impl<'a> Blocks<'a> {
     }
 
     fn integer(&self, reader: &mut impl Read) -> Result<i32> {
-        Ok(i32::from_le_bytes(bytes::array(self.path, reader)?))
+        bytes::i32_le(self.path, reader)
     }
 
     /// A tile says its column and row, scan lines the uppermost of them.
@@ -192,7 +195,7 @@ impl<'a> Blocks<'a> {
 
     /// A block that does not get smaller is stored as it is, so none is larger than its pixels.
     fn read_pixels(&self, reader: &mut impl Read, area: Area) -> Result<Vec<u8>> {
-        let size = self.integer(reader)? as u32;
+        let size = bytes::u32_le(self.path, reader)?;
         if size == 0 || size as usize > self.size(area) {
             return self.fail(format!("a block of pixels of {size} bytes"));
         }
@@ -206,6 +209,11 @@ impl<'a> Blocks<'a> {
             size: Vec2(area.width, area.height),
         };
         let compression = self.header.part.compression;
+        // What is as large as its pixels is stored as it is.
+        let coded = compression == Compression::PIZ && compressed.len() < self.size(area);
+        if coded && codebook::is_made_up(&compressed, self.size(area) / 2) {
+            return self.fail("broken pixels: codes that no encoder makes");
+        }
         let decompress =
             || compression.decompress_image_section_from_le(&self.exr, compressed, bounds, false);
         match catch(decompress) {
