@@ -6,12 +6,16 @@ use crate::calibrate;
 use crate::compare::flip::{self, Exposures};
 use crate::compare::verdict::{self, Outcome, Terms};
 use crate::compare::{
-    MapKind, Metric, Pair, Study, Viewing, Wishes, chart, compare, prepare_map, sides, write_map,
+    Comparison, MapKind, Metric, Pair, Study, Viewing, Wishes, chart, compare, prepare_map, sides,
+    write_map,
 };
 use crate::error::{Error, Result};
+use crate::film::RasterFile;
 use crate::pack::Rect;
 use crate::place::Place;
 use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::borrow::Cow;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -154,6 +158,8 @@ impl Command {
         };
         if self.bless.is_some() && !reference.exists() {
             let place = Place::prepare(reference)?;
+            // A reference that cannot be read would fail everybody from now on.
+            RasterFile::open(test)?.read()?;
             bless(place, test)?;
             remark(
                 &format!(
@@ -190,9 +196,12 @@ impl Command {
             self.write_map(place, &study, wishes)?;
         }
         if output.json {
-            let json = serde_json::to_string(&comparison)
-                .map_err(|error| Error::Internal(error.to_string()))?;
-            print(&(json + "\n"))?;
+            let files = Files {
+                a: reference.to_string_lossy(),
+                b: test.to_string_lossy(),
+                comparison: &comparison,
+            };
+            print_json(&files)?;
         } else {
             print(&report(&comparison, reference, test))?;
         }
@@ -309,14 +318,26 @@ impl Command {
         let mut say = |text: &str| remark(text, output);
         let found = calibrate::calibrate(&plan, devices, &mut say)?;
         if output.json {
-            let json = serde_json::to_string(&found)
-                .map_err(|error| Error::Internal(error.to_string()))?;
-            print(&(json + "\n"))?;
+            print_json(&found)?;
         } else {
             print(&found.to_string())?;
         }
         Ok(SAME)
     }
+}
+
+/// A comparison with the names of its files.
+#[derive(Serialize)]
+struct Files<'a> {
+    a: Cow<'a, str>,
+    b: Cow<'a, str>,
+    #[serde(flatten)]
+    comparison: &'a Comparison,
+}
+
+fn print_json(value: &impl Serialize) -> Result<()> {
+    let json = serde_json::to_string(value).map_err(|error| Error::Internal(error.to_string()))?;
+    print(&(json + "\n"))
 }
 
 /// What a failure of `diff` itself exits with: pictures that cannot be read are its trouble, like

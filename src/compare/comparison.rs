@@ -158,12 +158,7 @@ fn judge_gates(study: &Study, wishes: &Wishes) -> Result<Vec<Judgement>> {
 pub fn sides(pair: &Pair, paired: bool) -> std::result::Result<Sides<'_>, String> {
     let reference = side(&pair.reference, "the reference")?;
     let test = side(&pair.test, "the test")?;
-    Ok(Sides::new(
-        reference,
-        test,
-        [pair.width(), pair.height()],
-        paired,
-    ))
+    Ok(Sides::new(reference, test, pair.region, paired))
 }
 
 fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, String> {

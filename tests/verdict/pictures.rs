@@ -4,6 +4,7 @@ use lampray::compare::verdict::{Side, Sides, Terms, Verdict, judge};
 use lampray::cpu::Cpu;
 use lampray::device::Device;
 use lampray::film::Picture;
+use lampray::pack::Rect;
 use lampray::render::{self, Task};
 use lampray::scene::{Assignment, Scene};
 use std::ops::ControlFlow;
@@ -58,14 +59,27 @@ fn side(picture: &Picture) -> Side<'_> {
     }
 }
 
+fn whole(picture: &Picture) -> Rect {
+    Rect {
+        x0: 0,
+        y0: 0,
+        x1: picture.width,
+        y1: picture.height,
+    }
+}
+
 /// The verdict on two pictures that share no samples.
 pub fn compare(reference: &Picture, test: &Picture, terms: Terms) -> Verdict {
-    let size = [reference.width, reference.height];
-    judge(&Sides::new(side(reference), side(test), size, false), terms)
+    judge(
+        &Sides::new(side(reference), side(test), whole(reference), false),
+        terms,
+    )
 }
 
 /// The verdict on two pictures of the same random numbers.
 pub fn compare_paired(reference: &Picture, test: &Picture, terms: Terms) -> Verdict {
-    let size = [reference.width, reference.height];
-    judge(&Sides::new(side(reference), side(test), size, true), terms)
+    judge(
+        &Sides::new(side(reference), side(test), whole(reference), true),
+        terms,
+    )
 }

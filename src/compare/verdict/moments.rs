@@ -1,6 +1,7 @@
 //! Means, variances and counts of both pictures, added up over some of their pixels.
 
 use super::estimate::Parts;
+use crate::pack::Rect;
 
 /// One picture with its noise.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,8 @@ pub struct Sides<'a> {
     pub test: Side<'a>,
     pub width: usize,
     pub height: usize,
+    /// Column and row of the first pixel in the files, for naming places.
+    pub origin: [u32; 2],
     /// What the noise of one picture says of the other's, channel by channel.
     expected: [Expected; 3],
     /// Whether both pictures were made of the same random numbers.
@@ -56,12 +59,13 @@ struct Sums {
 }
 
 impl<'a> Sides<'a> {
-    pub fn new(reference: Side<'a>, test: Side<'a>, size: [u32; 2], paired: bool) -> Self {
+    pub fn new(reference: Side<'a>, test: Side<'a>, region: Rect, paired: bool) -> Self {
         Self {
             reference,
             test,
-            width: size[0] as usize,
-            height: size[1] as usize,
+            width: region.width() as usize,
+            height: region.height() as usize,
+            origin: [region.x0, region.y0],
             expected: [0, 1, 2].map(|channel| Expected::of(reference, test, channel)),
             paired,
         }
@@ -69,6 +73,17 @@ impl<'a> Sides<'a> {
 
     pub fn pixels(&self) -> usize {
         self.width * self.height
+    }
+
+    /// A rectangle of the compared part, in the files' own pixels.
+    pub fn place(&self, [x0, y0, x1, y1]: [usize; 4]) -> Rect {
+        let [left, top] = self.origin;
+        Rect {
+            x0: left + x0 as u32,
+            y0: top + y0 as u32,
+            x1: left + x1 as u32,
+            y1: top + y1 as u32,
+        }
     }
 
     /// The fewest samples that a pixel of either picture has.

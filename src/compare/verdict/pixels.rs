@@ -4,7 +4,6 @@ use super::estimate::{Estimate, Parts};
 use super::moments::Sides;
 use super::normal::{sidak, two_sided};
 use super::tiles::{SIDE, Spot, tile_at};
-use crate::pack::Rect;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -103,15 +102,19 @@ pub fn judge(sides: &Sides, alpha: f64, tolerance: f64) -> Pixels {
         failing: failing.iter().filter(|fails| **fails).count(),
         expected: chance * sides.pixels() as f64,
         largest_cluster,
-        cluster_at: cluster_at.map(|pixel| place(pixel, sides.width)),
+        cluster_at: cluster_at.map(|pixel| {
+            let [x, y] = place(pixel, sides.width);
+            let rect = sides.place([x, y, x + 1, y + 1]);
+            [rect.x0, rect.y0]
+        }),
         cluster_p,
         worst,
         fails: cluster_p < 0.5 * alpha || worst.estimate.p() < alone,
     }
 }
 
-fn place(pixel: usize, width: usize) -> [u32; 2] {
-    [(pixel % width) as u32, (pixel / width) as u32]
+fn place(pixel: usize, width: usize) -> [usize; 2] {
+    [pixel % width, pixel / width]
 }
 
 fn worst(sides: &Sides, z: &[f32], tolerance: f64) -> Spot {
@@ -122,15 +125,10 @@ fn worst(sides: &Sides, z: &[f32], tolerance: f64) -> Spot {
         }
     }
     let [x, y] = place(pixel, sides.width);
-    let rect = tile_at(sides, x as usize / SIDE, y as usize / SIDE);
+    let rect = tile_at(sides, x / SIDE, y / SIDE);
     let (channel, estimate) = Surroundings::of(sides, rect).farthest(sides, pixel, tolerance);
     Spot {
-        rect: Rect {
-            x0: x,
-            y0: y,
-            x1: x + 1,
-            y1: y + 1,
-        },
+        rect: sides.place([x, y, x + 1, y + 1]),
         channel,
         estimate,
     }

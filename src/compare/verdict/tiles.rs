@@ -75,16 +75,11 @@ pub fn tile_at(sides: &Sides, column: usize, row: usize) -> [usize; 4] {
 }
 
 fn worst_channel(sides: &Sides, column: usize, row: usize, tolerance: f64) -> Spot {
-    let [x0, y0, x1, y1] = tile_at(sides, column, row);
+    let rect = tile_at(sides, column, row);
     let spot = |channel| Spot {
-        rect: Rect {
-            x0: x0 as u32,
-            y0: y0 as u32,
-            x1: x1 as u32,
-            y1: y1 as u32,
-        },
+        rect: sides.place(rect),
         channel,
-        estimate: Estimate::new(sides.within([x0, y0, x1, y1], channel), tolerance),
+        estimate: Estimate::new(sides.within(rect, channel), tolerance),
     };
     let [red, green, blue] = [0, 1, 2].map(spot);
     let clearer = |a: Spot, b: Spot| if b.estimate.z > a.estimate.z { b } else { a };
