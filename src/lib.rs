@@ -25,6 +25,7 @@
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`points`] | the samplers alone, as data or as a plot |
+//! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
 //! | [`cli`] | one file a command, each a thin face over the library |
 //!
