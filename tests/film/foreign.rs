@@ -1,5 +1,6 @@
 //! EXR files of other programs; tests/fixtures/README.md says which.
 
+use super::craft::{RGB, attribute, block, exr};
 use super::sample::{Folder, fixture, picture, write};
 use lampray::Error;
 use lampray::film::{Pixels, Raster, RasterFile};
@@ -105,6 +106,64 @@ fn tiles_levels_and_windows() {
     let raster = file.read().unwrap();
     assert_formula(&raster, formula);
     assert_eq!(raster.origin, [-7, -40]);
+}
+
+/// No program at hand writes levels that are smaller in one direction only.
+#[test]
+fn levels_by_direction() {
+    let folder = Folder::new();
+    for (mode, levels) in [(2, 3), (0x12, 4)] {
+        let side = 4 + i32::from(levels == 4);
+        let size = [8_u32, 8].map(u32::to_le_bytes).concat();
+        let tiles = attribute("tiles", "tiledesc", &[&size[..], &[mode]].concat());
+        let mut bytes = exr(0x200, [0, 0, side - 1, side - 1], 0, &RGB, &[tiles]);
+        bytes.extend(vec![0; levels * levels * 8]);
+        // The full resolution comes last.
+        for number in (0..levels * levels).rev() {
+            let (x, y) = ((number % levels) as i32, (number / levels) as i32);
+            bytes.extend([0, 0, x, y].map(i32::to_le_bytes).concat());
+            let pixels = if number == 0 { side * side } else { 1 };
+            bytes.extend((pixels * 12).to_le_bytes());
+            let value = (number as f32 + 0.5).to_le_bytes();
+            bytes.extend(value.repeat(pixels as usize * 3));
+        }
+        let path = folder.join("a.exr");
+        fs::write(&path, &bytes).unwrap();
+        let raster = RasterFile::open(&path).unwrap().read().unwrap();
+        assert_eq!(linear(&raster), vec![[0.5; 3]; (side * side) as usize]);
+        // Nothing is left over.
+        fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
+        assert!(RasterFile::open(&path).unwrap().read().is_err());
+    }
+}
+
+/// It may have come through a program that copies attributes; one that is broken is a fault.
+#[test]
+fn records_of_other_pictures() {
+    let folder = Folder::new();
+    let path = folder.join("a.exr");
+    let json = picture(0..4).record.to_json();
+    for (json, accepted) in [(&json[..], true), (&json[1..], false)] {
+        let record = attribute("lampray", "string", json.as_bytes());
+        let mut bytes = exr(0, [0, 0, 3, 0], 0, &RGB, &[record]);
+        bytes.extend([0; 8]);
+        bytes.extend(block(0, 4, 1.5));
+        fs::write(&path, &bytes).unwrap();
+        match RasterFile::open(&path).and_then(RasterFile::read) {
+            Ok(raster) => {
+                assert!(accepted && raster.record.is_none());
+                let note = "the record, which is of a picture of another size";
+                assert_eq!(raster.left_aside, [note]);
+            }
+            Err(Error::Data { reason, .. }) => {
+                assert!(
+                    !accepted && reason.contains("the record inside"),
+                    "{reason}"
+                );
+            }
+            Err(error) => panic!("{error:?}"),
+        }
+    }
 }
 
 #[test]

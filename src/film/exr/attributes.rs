@@ -1,9 +1,11 @@
 //! The attributes of a header, each a name, a type, a size and a value.
 
-use super::part::{Channel, Kind, Tiling};
+use super::part::{Channel, Kind};
 use crate::error::Result;
 use crate::film::bytes;
 use crate::film::text::{self, RECORD_LIMIT, STORED_LIMIT};
+use exr::math::{RoundingMode, Vec2};
+use exr::meta::attribute::{LevelMode, TileDescription};
 use exr::prelude::SampleType;
 use std::io::Read;
 use std::path::Path;
@@ -22,10 +24,11 @@ pub(super) struct Attributes {
     pub compression: Option<u8>,
     /// Left, top, right, bottom, all of them inclusive.
     pub window: Option<[i32; 4]>,
-    pub tiling: Option<Tiling>,
+    pub tiling: Option<TileDescription>,
     pub kind: Option<Kind>,
     pub name: Option<String>,
-    pub chunks: Option<u32>,
+    /// How many, at all resolutions.
+    pub blocks: Option<u32>,
     /// The attribute `lampray`.
     pub record: Option<Vec<u8>>,
     /// The attribute `lampray_scene`, still compressed.
@@ -89,7 +92,7 @@ impl Attributes {
                 self.window = Some([edge()?, edge()?, edge()?, edge()?]);
             }
             b"tiles" => self.tiling = Some(tiling(path, rest)?),
-            b"chunkCount" => self.chunks = Some(bytes::u32_le(path, rest)?),
+            b"chunkCount" => self.blocks = Some(bytes::u32_le(path, rest)?),
             b"type" => self.kind = Some(part_kind(path, &value)?),
             _ => self.name = Some(String::from_utf8_lossy(&value).into_owned()),
         }
@@ -145,17 +148,29 @@ fn channels(path: &Path, value: &mut impl Read) -> Result<Vec<Channel>> {
     }
 }
 
-fn tiling(path: &Path, value: &mut impl Read) -> Result<Tiling> {
+/// Width, height, and a byte: levels in its lower half, and in its upper one how they are rounded.
+fn tiling(path: &Path, value: &mut impl Read) -> Result<TileDescription> {
     let size = [bytes::u32_le(path, value)?, bytes::u32_le(path, value)?];
     let [mode] = bytes::array(path, value)?;
-    if size.contains(&0) || mode & 15 > 2 || mode >> 4 > 1 {
-        return Err(bytes::data(path, "a broken description of tiles"));
+    let level_mode = match mode & 15 {
+        0 => Some(LevelMode::Singular),
+        1 => Some(LevelMode::MipMap),
+        2 => Some(LevelMode::RipMap),
+        _ => None,
+    };
+    let rounding_mode = match mode >> 4 {
+        0 => Some(RoundingMode::Down),
+        1 => Some(RoundingMode::Up),
+        _ => None,
+    };
+    match level_mode.zip(rounding_mode) {
+        Some((level_mode, rounding_mode)) if !size.contains(&0) => Ok(TileDescription {
+            tile_size: Vec2(size[0] as usize, size[1] as usize),
+            level_mode,
+            rounding_mode,
+        }),
+        _ => Err(bytes::data(path, "a broken description of tiles")),
     }
-    Ok(Tiling {
-        size,
-        levels: mode & 15,
-        round_up: mode >> 4 == 1,
-    })
 }
 
 fn part_kind(path: &Path, value: &[u8]) -> Result<Kind> {

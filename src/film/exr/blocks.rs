@@ -47,7 +47,7 @@ pub(super) fn read_planes(
         }
     }
     // Other parts and smaller levels may follow; a file that is cut short there is broken too.
-    while progress.read < header.chunks {
+    while progress.read < header.blocks {
         blocks.read_place(reader, &mut progress)?;
     }
     Ok(planes)

@@ -26,7 +26,7 @@ pub(super) struct Header {
     /// Names of the parts after the first.
     pub others: Vec<String>,
     /// Blocks of all parts and levels, each with an entry in the table of offsets.
-    pub chunks: u64,
+    pub blocks: u64,
 }
 
 impl Header {
@@ -54,7 +54,7 @@ impl Header {
     fn new(path: &Path, version: u32, parts: Vec<Attributes>) -> Result<Header> {
         let numbered = version & PARTS != 0;
         let kinds: Option<Vec<Kind>> = parts.iter().map(|part| kind(version, part)).collect();
-        let counted: Option<u64> = parts.iter().map(|part| part.chunks.map(u64::from)).sum();
+        let counted: Option<u64> = parts.iter().map(|part| part.blocks.map(u64::from)).sum();
         let others = parts.iter().enumerate().skip(1).map(name).collect();
         let (Some(kinds), Some(first)) = (kinds, parts.into_iter().next()) else {
             return Err(bytes::data(
@@ -63,26 +63,26 @@ impl Header {
             ));
         };
         let part = Part::new(path, kinds[0], first)?;
-        let chunks = match counted {
-            Some(chunks) if numbered => chunks,
+        let blocks = match counted {
+            Some(blocks) if numbered => blocks,
             None if numbered => {
                 return Err(bytes::data(path, "a part without the number of its blocks"));
             }
-            _ => layout::all_chunks(&part),
+            _ => layout::all_blocks(&part),
         };
         Ok(Header {
             part,
             kinds,
             numbered,
             others,
-            chunks,
+            blocks,
         })
     }
 
     /// Steps over the table of offsets: it is for jumping to blocks, and here all are read, one
     /// after another. So it may say what it likes.
     pub(super) fn skip_offsets(&self, path: &Path, reader: &mut impl Read) -> Result<()> {
-        bytes::skip(path, reader, self.chunks.saturating_mul(8))
+        bytes::skip(path, reader, self.blocks.saturating_mul(8))
     }
 }
 
