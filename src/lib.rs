@@ -30,7 +30,6 @@
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
-//! | [`compare`] | how far two pictures are apart, as numbers and as maps |
 //! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
 //! | [`cli`] | one file a command, each a thin face over the library |

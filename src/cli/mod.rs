@@ -1,10 +1,8 @@
 //! The command line: one file a command, each a thin face over one library call.
 
 mod check;
-mod comparison;
 mod devices;
 mod diff;
-mod gates;
 mod knobs;
 mod merge;
 mod options;

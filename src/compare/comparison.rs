@@ -12,6 +12,9 @@ use crate::error::{Error, Result};
 use crate::film::{Noise, Pixels, Raster};
 use serde::Serialize;
 
+/// Pixels up to which metrics that nobody asked for may take their time and memory: a 4K picture.
+const LARGE: usize = 1 << 23;
+
 /// The worst tiles that are named.
 const WORST: usize = 5;
 
@@ -127,9 +130,17 @@ fn figures(study: &Study, wishes: &Wishes, warnings: &mut Vec<String>) -> Result
     let asked = !metrics.is_empty();
     if !asked {
         metrics.extend(Metric::LINEAR);
-        metrics.extend(Metric::DISPLAY);
-        if study.pair.is_high_dynamic_range() {
-            metrics.push(Metric::HdrFlip);
+        if study.pair.len() <= LARGE {
+            metrics.extend(Metric::DISPLAY);
+            metrics.extend(
+                study
+                    .pair
+                    .is_high_dynamic_range()
+                    .then_some(Metric::HdrFlip),
+            );
+        } else {
+            let reason = "ssim, ms-ssim and flip are left out of pictures of over 8 million pixels unless --metric asks for them";
+            warnings.push(reason.into());
         }
     }
     metrics.sort();

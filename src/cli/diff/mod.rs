@@ -1,19 +1,22 @@
-use super::comparison::report;
-use super::gates::Gates;
+mod calibrate;
+mod gates;
+mod parse;
+mod report;
+
 use super::options::{DeviceOptions, KnobOptions};
 use super::{Output, note, print};
-use crate::calibrate;
-use crate::compare::flip::{self, Exposures};
+use crate::compare::flip;
 use crate::compare::verdict::{self, Outcome, Terms};
 use crate::compare::{
-    Comparison, MapKind, Metric, Pair, Study, Viewing, Wishes, chart, compare, prepare_map, sides,
+    Comparison, MapKind, Pair, Study, Viewing, Wishes, chart, compare, prepare_map, sides,
     write_map,
 };
 use crate::error::{Error, Result};
 use crate::film::RasterFile;
-use crate::pack::Rect;
 use crate::place::Place;
 use clap::{Args, ValueEnum};
+use gates::Gates;
+use report::report;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fs;
@@ -187,7 +190,7 @@ impl Command {
             .bless
             .map(|when| Ok::<_, Error>((when, Place::prepare(reference)?)))
             .transpose()?;
-        let crop = self.crop.as_deref().map(parse_crop).transpose()?;
+        let crop = self.crop.as_deref().map(parse::crop).transpose()?;
         let pair = Pair::read(reference, test, crop)?;
         let study = Study::new(&pair, wishes.viewing);
         let comparison = compare(&study, wishes)?;
@@ -258,7 +261,11 @@ impl Command {
             viewing: Viewing {
                 ppd: self.ppd,
                 exposure: self.exposure,
-                exposures: self.exposures.as_deref().map(parse_exposures).transpose()?,
+                exposures: self
+                    .exposures
+                    .as_deref()
+                    .map(parse::exposures)
+                    .transpose()?,
             },
             terms: Terms {
                 alpha: share("--alpha", self.alpha, 0.5)?,
@@ -286,43 +293,6 @@ impl Command {
         }
         let z = sides.map(|sides| verdict::z_map(&sides, wishes.terms));
         write_map(place, &chart(study, kind, z)?)
-    }
-
-    fn calibrate(&self, scene: &Path, wishes: &Wishes, output: Output) -> Result<u8> {
-        if !(self.false_alarms > 0.0 && self.false_alarms < 0.5) {
-            return Err(Error::Usage(format!(
-                "--false-alarms {}: must be above 0 and below 0.5",
-                self.false_alarms
-            )));
-        }
-        if !wishes.gates.is_empty() {
-            return Err(Error::Usage(
-                "--calibrate proposes limits: give --metric without --max or --min".into(),
-            ));
-        }
-        let metrics = if wishes.metrics.is_empty() {
-            vec![Metric::Rmse, Metric::Flip]
-        } else {
-            wishes.metrics.clone()
-        };
-        let scene = self.knobs.load(scene)?;
-        let plan = calibrate::Plan {
-            scene: &scene,
-            metrics,
-            viewing: wishes.viewing,
-            seeds: self.seeds,
-            false_alarms: self.false_alarms,
-            reference: self.reference.as_deref(),
-        };
-        let devices = self.device.open_all()?;
-        let mut say = |text: &str| remark(text, output);
-        let found = calibrate::calibrate(&plan, devices, &mut say)?;
-        if output.json {
-            print_json(&found)?;
-        } else {
-            print(&found.to_string())?;
-        }
-        Ok(SAME)
     }
 }
 
@@ -367,40 +337,4 @@ fn bless(place: Place, test: &Path) -> Result<()> {
         source,
     })?;
     place.write(|sink| -> io::Result<()> { sink.write_all(&bytes) })
-}
-
-fn parse_crop(text: &str) -> Result<Rect> {
-    let numbers: Option<Vec<u32>> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok())
-        .collect();
-    match numbers.as_deref() {
-        Some(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok(Rect { x0, y0, x1, y1 }),
-        _ => Err(Error::Usage(format!(
-            "--crop {text}: give X0,Y0,X1,Y1 in pixels with X0 < X1 and Y0 < Y1"
-        ))),
-    }
-}
-
-fn parse_exposures(text: &str) -> Result<Exposures> {
-    let wrong = || {
-        Error::Usage(format!(
-            "--exposures {text}: give START,STOP,COUNT as an earlier comparison printed them, for example -3.1,4.2,8"
-        ))
-    };
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let &[start, stop, count] = parts.as_slice() else {
-        return Err(wrong());
-    };
-    let stops = |text: &str| {
-        text.parse::<f32>()
-            .ok()
-            .filter(|stops| stops.abs() <= 100.0)
-    };
-    match (stops(start), stops(stop), count.parse::<u32>()) {
-        (Some(start), Some(stop), Ok(count @ 1..=flip::MAX_EXPOSURES)) if start <= stop => {
-            Ok(Exposures { start, stop, count })
-        }
-        _ => Err(wrong()),
-    }
 }
