@@ -20,7 +20,6 @@ use report::report;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Compare two pictures: metrics, limits, and a verdict that needs no limit
@@ -160,10 +159,9 @@ impl Command {
             return Err(Error::Usage("diff needs two pictures".into()));
         };
         if self.bless.is_some() && !reference.exists() {
-            let place = Place::prepare(reference)?;
             // A reference that cannot be read would fail everybody from now on.
             RasterFile::open(test)?.read()?;
-            bless(place, test)?;
+            bless(reference, test)?;
             remark(
                 &format!(
                     "{} was not there: it is now a copy of {}",
@@ -184,19 +182,17 @@ impl Command {
         wishes: &Wishes,
         output: Output,
     ) -> Result<u8> {
-        // Outputs that cannot be written are refused before the work.
-        let map = self.map.as_deref().map(prepare_map).transpose()?;
-        let blessed = self
-            .bless
-            .map(|when| Ok::<_, Error>((when, Place::prepare(reference)?)))
-            .transpose()?;
+        // Outputs that cannot be written are refused before the work. Nothing is held in their places
+        // meanwhile, so that a signal leaves nothing behind.
+        self.map.as_deref().map(prepare_map).transpose()?;
+        self.bless.map(|_| Place::prepare(reference)).transpose()?;
         let crop = self.crop.as_deref().map(parse::crop).transpose()?;
         let pair = Pair::read(reference, test, crop)?;
         let study = Study::new(&pair, wishes.viewing);
         let comparison = compare(&study, wishes)?;
         let code = code(comparison.conclusion);
-        if let Some(place) = map {
-            self.write_map(place, &study, wishes)?;
+        if let Some(path) = &self.map {
+            self.write_map(path, &study, wishes)?;
         }
         if output.json {
             let files = Files {
@@ -208,9 +204,9 @@ impl Command {
         } else {
             print(&report(&comparison, reference, test))?;
         }
-        match blessed {
-            Some((when, place)) if when == Bless::All || code == DIFFERENT => {
-                bless(place, test)?;
+        match self.bless {
+            Some(when) if when == Bless::All || code == DIFFERENT => {
+                bless(reference, test)?;
                 remark(
                     &format!(
                         "{} is now a copy of {}",
@@ -277,7 +273,7 @@ impl Command {
         })
     }
 
-    fn write_map(&self, place: Place, study: &Study, wishes: &Wishes) -> Result<()> {
+    fn write_map(&self, path: &Path, study: &Study, wishes: &Wishes) -> Result<()> {
         let pair = study.pair;
         let related = pair.kinship();
         let paired = related.as_ref().is_some_and(|kinship| kinship.paired);
@@ -292,7 +288,7 @@ impl Command {
             return Err(Error::Usage("--map-kind z: both pictures were made of the same random numbers, which says nothing of the noise of a pixel; take signed".into()));
         }
         let z = sides.map(|sides| verdict::z_map(&sides, wishes.terms));
-        write_map(place, &chart(study, kind, z)?)
+        write_map(prepare_map(path)?, &chart(study, kind, z)?)
     }
 }
 
@@ -331,10 +327,10 @@ fn remark(text: &str, output: Output) {
 }
 
 /// Copies the test over the reference, as whole as any output.
-fn bless(place: Place, test: &Path) -> Result<()> {
+fn bless(reference: &Path, test: &Path) -> Result<()> {
     let bytes = fs::read(test).map_err(|source| Error::Input {
         path: test.into(),
         source,
     })?;
-    place.write(|sink| -> io::Result<()> { sink.write_all(&bytes) })
+    Place::prepare(reference)?.write(|sink| sink.write_all(&bytes))
 }
