@@ -58,7 +58,7 @@ fn two_lamps_are_the_sum_of_each() {
             }
             // Not linear, by a little; and one lamp that is a little brighter beside the other.
             let clamped = both().case("clamped", sets, form);
-            mutants.reject(bench, &clamped.set("render.clamp", 4));
+            mutants.reject(bench, &clamped.set("render.clamp", 1));
             let mut brighter = both();
             let large = brighter.material(LAMPS[1]);
             large.emission = large.emission.map(|x| 1.02 * x);

@@ -89,13 +89,13 @@ impl Room {
                 material("mirror", "mirror", [0.9, 0.85, 0.8], dark),
                 material("satin", "directional", [0.8, 0.5, 0.7], dark),
                 material("glow", "diffuse", [0.5, 0.45, 0.4], [0.6, 0.3, 0.1]),
-                material(LAMPS[0], "diffuse", dark, [7.0, 8.0, 9.0]),
+                material(LAMPS[0], "diffuse", dark, [2.8, 3.2, 3.6]),
                 material(LAMPS[1], "diffuse", [0.6, 0.4, 0.2], [1.5, 1.2, 0.9]),
             ],
             spheres: vec![
                 sphere([-0.5, 0.52, 0.3], 0.5, "mirror"),
                 sphere([0.5, 0.42, 0.9], 0.4, "satin"),
-                sphere([0.3, 2.0, 0.5], 0.2, LAMPS[0]),
+                sphere([0.3, 2.1, 0.5], 0.35, LAMPS[0]),
                 sphere([0.4, 0.63, -1.2], 0.6, LAMPS[1]),
             ],
             boxes: vec![
@@ -186,7 +186,7 @@ impl Room {
 
     /// The room under the gate of means.
     pub fn case(&self, name: &str, sets: &[&str], form: Form) -> Case {
-        let case = Case::new(name, self.text(), form);
+        let case = Case::new(name, self.text(), form).within(WIDTH);
         let split = |set: &&str| {
             set.split_once('=')
                 .map(|(a, b)| (a.to_string(), b.to_string()))
@@ -218,5 +218,7 @@ pub const SETTINGS: [&[&str]; 6] = [
     &["render.preset=paper", "light.pole=receiver"],
 ];
 
+/// Four standard errors are at most this share of a mean.
+const WIDTH: f64 = 0.012;
 /// Relative standard error of a mean that another is compared with.
-pub const TRUTH: f64 = 0.0006;
+pub const TRUTH: f64 = 0.001;
