@@ -198,7 +198,7 @@ impl Room {
 
 /// Settings that between them run through every sampler, strategy and rule.
 pub const SETTINGS: [&[&str]; 6] = [
-    &["render.preset=reference"],
+    &["render.preset=reference", "interruption.start=1"],
     &["render.preset=corrected", "light.sampler=gaussian"],
     &[
         "light.strategy=hit",
