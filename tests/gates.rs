@@ -3,7 +3,7 @@
 mod support;
 
 use std::f64::consts::{PI, SQRT_2};
-use support::chance::{binomial_at_least, chi_square_above, sidak};
+use support::chance::*;
 use support::gate::{LEVEL, MOST_ERRORS};
 use support::quadrature::{erf, integrate};
 
@@ -20,6 +20,12 @@ fn the_gates_know_their_distributions() {
         assert!((above - p).abs() < 1e-6, "{statistic} {freedom}: {above}");
     }
     assert!((sidak(0.01, 10) - 0.001_004_5).abs() < 1e-7);
+    for (statistic, p) in [(1.358_1, 0.05), (1.627_6, 0.01), (0.827_6, 0.5)] {
+        let above = kolmogorov_above(statistic);
+        assert!((above - p).abs() < 1e-4, "{statistic}: {above}");
+    }
+    let apart = distance_of_sorted(&[1.0, 2.0, 2.0, 5.0], &[2.0, 3.0, 4.0, 6.0]);
+    assert_eq!(apart, 0.5);
     // Of ten coins at least eight heads: 56 of 1024.
     let heads = binomial_at_least(8, 10, 0.5);
     assert!((heads - 56.0 / 1024.0).abs() < 1e-12, "{heads}");

@@ -30,15 +30,20 @@ pub fn benches() -> Vec<Bench> {
 }
 
 impl Bench {
-    /// Renders some samples of every pixel.
-    pub fn film(self, scene: &Scene, samples: Range<u64>) -> Film {
+    /// Does something with the device.
+    pub fn with<T>(self, what: impl FnOnce(&mut dyn Device) -> T) -> T {
         match self {
-            Bench::Twin => trace(&mut lampray::cpu::Cpu::new(), scene, samples),
+            Bench::Twin => what(&mut lampray::cpu::Cpu::new()),
             Bench::Vulkan => {
-                let mut gpu = gpu("a render").expect("only benches that are there");
-                trace(&mut *gpu, scene, samples)
+                let mut gpu = gpu("a device's answer").expect("only benches that are there");
+                what(&mut *gpu)
             }
         }
+    }
+
+    /// Renders some samples of every pixel.
+    pub fn film(self, scene: &Scene, samples: Range<u64>) -> Film {
+        self.with(|device| trace(device, scene, samples))
     }
 
     /// Renders until the relative standard error of every channel is at most `precision`.

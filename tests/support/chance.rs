@@ -79,6 +79,35 @@ pub fn fit(observed: &[f64], expected: &[f64]) -> Fit {
     }
 }
 
+/// Share of Kolmogorov's distribution above `statistic`: that of the largest distance between two
+/// distribution functions, times the root of the number of draws (n m / (n + m) for two samples).
+pub fn kolmogorov_above(statistic: f64) -> f64 {
+    if statistic < 0.2 {
+        return 1.0;
+    }
+    let term = |k: i32| {
+        let sign = if k % 2 == 1 { 2.0 } else { -2.0 };
+        sign * (-2.0 * (f64::from(k) * statistic).powi(2)).exp()
+    };
+    (1..101).map(term).sum::<f64>().clamp(0.0, 1.0)
+}
+
+/// Largest distance between the distribution functions of two sorted samples of one size.
+pub fn distance_of_sorted(a: &[f64], b: &[f64]) -> f64 {
+    let (mut i, mut j, mut apart) = (0, 0, 0usize);
+    while i < a.len() && j < b.len() {
+        let at = a[i].min(b[j]);
+        while i < a.len() && a[i] <= at {
+            i += 1;
+        }
+        while j < b.len() && b[j] <= at {
+            j += 1;
+        }
+        apart = apart.max(i.abs_diff(j));
+    }
+    apart as f64 / a.len() as f64
+}
+
 /// Chance that a binomial count is at least `count`.
 pub fn binomial_at_least(count: u64, trials: u64, p: f64) -> f64 {
     let chance = |k: u64| {
