@@ -9,12 +9,12 @@
 use crate::support::bench::Bench;
 use crate::support::gate::{Case, Family};
 
-const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
-const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
-const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
-const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
-const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
-const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
+pub const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
+pub const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
+pub const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
+pub const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
+pub const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
+pub const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
 
 /// One value of each knob, as a place in its list above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
