@@ -156,8 +156,11 @@ fn every_sampler_and_strategy_gives_the_form_factor() {
 }
 
 /// Lamps that each strategy finds often enough, whole and cut.
-const WHOLE: [Lit; 2] = [LAMPS[3], lit(0.5, 0.6, [0.0, 0.0, 40.0])];
-const CUT: [Lit; 2] = [LAMPS[5], lit(0.8, 1.2, FLAT)];
+const WHOLE: [Lit; 2] = [
+    lit(0.6, 0.4, [-70.0, 15.0, 5.0]),
+    lit(0.5, 0.6, [0.0, 0.0, 40.0]),
+];
+const CUT: [Lit; 2] = [lit(0.6, 1.1, [25.0, 0.0, 0.0]), lit(0.65, 1.2, FLAT)];
 
 #[test]
 fn every_knob_gives_the_form_factor() {
