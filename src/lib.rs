@@ -50,8 +50,8 @@
 //!
 //! - **A knob**: a row in `knobs/table.rs`, a field in [`knobs::Settings`].
 //! - **A light sampler**: a name in [`knobs::LightSampler`], its sample and inverse density in
-//!   `shaders/light.wgsl` and `src/cpu/light.rs`, and its chi-square case in the tests. The naga tests
-//!   fail until both sides agree.
+//!   `shaders/light.wgsl` and `src/cpu/light.rs`, its chi-square case in the tests. The naga
+//!   tests and the cross of the closed forms fail until all agree.
 //! - **A scattering**: a name in [`knobs::Scatter`]; sample, evaluate and density in `scatter` of both
 //!   twins; fields in [`pack::Material`].
 //! - **A metric**: a name in [`compare::Metric`] with its definition; of linear light in

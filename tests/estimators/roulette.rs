@@ -81,6 +81,14 @@ impl Walls {
         (moment(1), moment(2) - moment(1).powi(2))
     }
 
+    fn weight(self) -> &'static str {
+        if self.literal {
+            "literal"
+        } else {
+            "compensated"
+        }
+    }
+
     pub fn case(self) -> Case {
         let scene = format!(
             "version = 1
@@ -98,17 +106,17 @@ impl Walls {
             self.max_bounces,
             self.shape,
             self.rule,
-            if self.literal {
-                "literal"
-            } else {
-                "compensated"
-            },
+            self.weight(),
             self.albedo,
             self.survival
         );
         let name = format!(
-            "albedo {:?}, {} {}, {} bounces",
-            self.albedo, self.rule, self.survival, self.max_bounces
+            "albedo {:?}, {} {} {}, {} bounces",
+            self.albedo,
+            self.rule,
+            self.survival,
+            self.weight(),
+            self.max_bounces
         );
         Case::new(name, scene, Form::Mean(self.laws().map(|law| law.mean)))
     }
@@ -163,16 +171,13 @@ fn the_sums_are_the_closed_forms() {
     close(literal.law(0).mean / EMISSION[0], 16.0 / 7.0);
 }
 
-/// Rays per path: within 4 standard errors.
-fn check_cost(walls: Walls, film: &Film) {
+/// Rays of a path beside those that are expected, in standard errors.
+fn distance_of_cost(walls: Walls, film: &Film) -> f64 {
     let (rays, variance) = walls.rays();
     let found = film.rays as f64 / film.paths as f64;
-    let z = (found - rays) / (variance / film.paths as f64).sqrt().max(1e-12);
-    assert!(
-        z.abs() <= MOST_ERRORS,
-        "{walls:?}: {found} rays for {rays}, z {z}"
-    );
+    let z = (found - rays) / (variance / film.paths as f64).sqrt();
     println!("  {found:.4} rays a path for {rays:.4}, z {z:+.2}");
+    z
 }
 
 /// Compensated, by every rule that comes to one probability here; literal; and with limits.
@@ -224,7 +229,8 @@ fn interrupted_paths_have_the_mean_variance_and_length_that_are_computed() {
             let walls = Walls { shape, ..walls };
             seed += 1;
             let film = check(bench, &walls.case(), seed, walls.laws());
-            check_cost(walls, &film);
+            let cost = distance_of_cost(walls, &film);
+            assert!(cost.abs() <= MOST_ERRORS, "{walls:?}: z {cost}");
         }
     }
 }
@@ -248,5 +254,12 @@ fn the_gate_tells_interruptions_apart() {
             seed += 1;
             reject(bench, &mutant, seed, PLAIN.laws());
         }
+        let longer = with("materials.wall.survival", "0.753").scene(seed + 1);
+        let cost = distance_of_cost(PLAIN, &bench.film(&longer, 0..2000));
+        assert!(
+            cost > MOST_ERRORS,
+            "the gate let longer paths pass: z {cost}"
+        );
+        seed += 1;
     }
 }
