@@ -200,7 +200,7 @@ mod tests {
     /// Against independent random pictures: the bound holds, and is not idle.
     #[test]
     fn the_chance_of_a_cluster_is_bounded() {
-        let (width, pixels, chance, pictures) = (64, 4096, 0.02, 2000);
+        let (width, pixels, chance, pictures) = (64, 4096, 0.05, 2000);
         let mut state = 7u64;
         let mut random = || {
             state = state
@@ -216,14 +216,11 @@ mod tests {
                 *counted += 1;
             }
         }
-        for (size, bounded) in [(4, true), (5, true), (6, true)] {
+        for size in [5, 6] {
             let share = f64::from(found[size]) / f64::from(pictures);
             let bound = cluster_chance(size, pixels, chance);
             let error = (bound / f64::from(pictures)).sqrt();
-            assert!(
-                bounded && share <= bound + 4.0 * error,
-                "{size}: {share} {bound}"
-            );
+            assert!(share <= bound + 4.0 * error, "{size}: {share} {bound}");
             assert!(share >= 0.2 * bound, "{size}: {share} {bound}");
         }
     }
