@@ -1,0 +1,169 @@
+//! All runs of a sweep: every combination of its axes, or the axes in step, each with so many seeds.
+
+use super::axis::{Axis, MOST_RUNS};
+use crate::error::{Error, Result};
+use crate::scene::Assignment;
+
+/// Seeds that follow each other are far apart in everything they draw.
+const SEED: &str = "render.seed";
+
+/// What is to be rendered.
+#[derive(Clone, Debug, Default)]
+pub struct Grid {
+    pub axes: Vec<Axis>,
+    /// Whether the axes go in step rather than in every combination.
+    pub zip: bool,
+    /// Repeats of each point, with the seeds 0, 1, 2, ... after the scene's own.
+    pub seeds: u64,
+}
+
+/// One combination of values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Path and value of each axis, in order.
+    pub values: Vec<(String, String)>,
+    /// Added to the scene's own seed.
+    pub repeat: u64,
+}
+
+impl Grid {
+    /// How many runs there are.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for axes in step that have different lengths, a knob twice, a seed both as
+    /// an axis and by repeats, or too many runs.
+    pub fn count(&self) -> Result<usize> {
+        self.check()?;
+        let points = if self.zip {
+            self.axes.first().map_or(1, |axis| axis.values.len())
+        } else {
+            let product = |all: usize, axis: &Axis| all.checked_mul(axis.values.len());
+            let points = self.axes.iter().try_fold(1, product);
+            points.filter(|points| *points <= MOST_RUNS).ok_or_else(too_many)?
+        };
+        let runs = points.checked_mul(self.repeats() as usize);
+        runs.filter(|runs| *runs <= MOST_RUNS).ok_or_else(too_many)
+    }
+
+    fn repeats(&self) -> u64 {
+        self.seeds.max(1)
+    }
+
+    fn check(&self) -> Result<()> {
+        for (number, axis) in self.axes.iter().enumerate() {
+            if self.axes[..number].iter().any(|other| other.path == axis.path) {
+                return Err(Error::Usage(format!("{} is swept twice", axis.path)));
+            }
+            if axis.path == SEED && self.seeds > 1 {
+                return Err(Error::Usage(format!(
+                    "{SEED} is swept, and --seeds repeats it: one of the two"
+                )));
+            }
+        }
+        let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
+        if self.zip && lengths.windows(2).any(|pair| pair[0] != pair[1]) {
+            let list: Vec<String> =
+                self.axes.iter().map(|axis| format!("{} has {}", axis.path, axis.values.len())).collect();
+            return Err(Error::Usage(format!(
+                "--zip takes the values in step, so all must have as many: {}",
+                list.join(", ")
+            )));
+        }
+        Ok(())
+    }
+
+    /// Every run, the last axis changing fastest and the seeds faster still.
+    ///
+    /// # Errors
+    /// As [`Grid::count`].
+    pub fn points(&self) -> Result<Vec<Point>> {
+        let repeats = self.repeats();
+        let count = self.count()?;
+        let point = |run: usize| {
+            let (mut index, repeat) = (run / repeats as usize, (run % repeats as usize) as u64);
+            let mut values: Vec<(String, String)> = Vec::new();
+            for axis in self.axes.iter().rev() {
+                let place = if self.zip { index } else { index % axis.values.len() };
+                values.push((axis.path.clone(), axis.values[place].clone()));
+                index = if self.zip { index } else { index / axis.values.len() };
+            }
+            values.reverse();
+            Point { values, repeat }
+        };
+        Ok((0..count).map(point).collect())
+    }
+}
+
+fn too_many() -> Error {
+    Error::Usage(format!("over {MOST_RUNS} runs"))
+}
+
+impl Point {
+    /// As `--set` has them; the seed is that of the repeat.
+    pub fn assignments(&self, scene_seed: u64) -> Vec<Assignment> {
+        let set = |path: &str, value: &str| {
+            Assignment::new(path, value, format!("--set {path}={value}"))
+        };
+        let mut all: Vec<_> = self.values.iter().map(|(path, value)| set(path, value)).collect();
+        if self.repeat > 0 {
+            all.push(set(SEED, &scene_seed.wrapping_add(self.repeat).to_string()));
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(text: &str) -> Axis {
+        Axis::parse(text).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn words(grid: &Grid) -> Vec<String> {
+        let points = grid.points().unwrap_or_else(|error| panic!("{error}"));
+        let word = |point: &Point| {
+            let values: Vec<_> = point.values.iter().map(|(_, value)| value.as_str()).collect();
+            format!("{}#{}", values.join(" "), point.repeat)
+        };
+        points.iter().map(word).collect()
+    }
+
+    #[test]
+    fn every_combination_with_every_seed() {
+        let grid = Grid {
+            axes: vec![axis("a=1,2"), axis("b=x,y")],
+            zip: false,
+            seeds: 2,
+        };
+        let all = ["1 x#0", "1 x#1", "1 y#0", "1 y#1", "2 x#0", "2 x#1", "2 y#0", "2 y#1"];
+        assert_eq!(words(&grid), all);
+    }
+
+    #[test]
+    fn in_step() {
+        let grid = Grid {
+            axes: vec![axis("a=1,2,3"), axis("b=x,y,z")],
+            zip: true,
+            seeds: 1,
+        };
+        assert_eq!(words(&grid), ["1 x#0", "2 y#0", "3 z#0"]);
+        assert_eq!(words(&Grid::default()), ["#0"]);
+    }
+
+    #[test]
+    fn what_does_not_fit_together() {
+        let refused = |axes: &[&str], zip, seeds| {
+            let grid = Grid {
+                axes: axes.iter().map(|text| axis(text)).collect(),
+                zip,
+                seeds,
+            };
+            grid.count().expect_err("a mistake").to_string()
+        };
+        assert!(refused(&["a=1,2", "b=1"], true, 1).contains("a has 2, b has 1"));
+        assert!(refused(&["a=1,2", "a=3"], false, 1).contains("twice"));
+        assert!(refused(&["render.seed=1,2"], false, 3).contains("one of the two"));
+        assert!(refused(&["a=1..1000", "b=1..1000", "c=1..2"], false, 1).contains("over"));
+    }
+}
