@@ -10,6 +10,9 @@
 //! ```text
 //! scene.toml ─parse→ Scene ─Packed::new→ flat buffers ─┬→ gpu (shaders/*.wgsl) ─┐
 //!            knobs ↗         Task ─Plan→ blocks ───────┴→ cpu (the twin) ───────┴→ Film → Picture → EXR, PNG + record
+//!
+//! any EXR, PNG ─RasterFile→ Pair ─┬→ metrics, limits, maps ─┬→ Comparison → text, JSON, exit code
+//!                                 └→ verdict ───────────────┘
 //! ```
 //!
 //! One direction: a room knows the rooms before it, never those after it.
@@ -24,8 +27,10 @@
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
+//! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
+//! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
-//! | [`compare`] | how far two pictures are apart, as numbers and as maps |
+//! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
 //! | [`cli`] | one file a command, each a thin face over the library |
 //!
@@ -45,14 +50,18 @@
 //!
 //! - **A knob**: a row in `knobs/table.rs`, a field in [`knobs::Settings`].
 //! - **A light sampler**: a name in [`knobs::LightSampler`], its sample and inverse density in
-//!   `shaders/light.wgsl` and `src/cpu/light.rs`, and its chi-square case in the tests. The naga tests
-//!   fail until both sides agree.
+//!   `shaders/light.wgsl` and `src/cpu/light.rs`, its chi-square case in the tests. The naga
+//!   tests and the cross of the closed forms fail until all agree.
 //! - **A scattering**: a name in [`knobs::Scatter`]; sample, evaluate and density in `scatter` of both
 //!   twins; fields in [`pack::Material`].
+//! - **A metric**: a name in [`compare::Metric`] with its definition; of linear light in
+//!   `compare/survey.rs`, of what a screen shows in a file of its own; its value by hand or from
+//!   another program in the tests.
 //! - **A kernel**: a file in `shaders/`, a name in [`shader::Kernel`] and in `shader/library.rs`.
 
 #![forbid(unsafe_code)]
 
+pub mod calibrate;
 pub mod cli;
 pub mod compare;
 pub mod cpu;

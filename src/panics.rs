@@ -21,3 +21,20 @@ pub(crate) fn catch<T>(call: impl FnOnce() -> T) -> thread::Result<T> {
     CATCHING.set(outer);
     outcome
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_known_to_be_caught() {
+        assert!(!catching());
+        let outcome = catch(|| {
+            assert!(catch(catching).is_ok_and(|inside| inside));
+            assert!(catching());
+            panic!("on purpose");
+        });
+        assert!(outcome.is_err_and(|cause: Box<_>| cause.is::<&str>()));
+        assert!(!catching());
+    }
+}

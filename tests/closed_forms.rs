@@ -1,10 +1,28 @@
 //! Renders beside closed forms, on the CPU twin and on the first Vulkan device.
 //!
+//! | file | form |
+//! |---|---|
+//! | `enclosure` | a closed even enclosure: e (1 + rho + ... + rho^N) |
+//! | `bodies`, `lobe` | a lone body under an even sky: rho L, less what a lobe loses below the surface |
+//! | `concentric` | two concentric spheres: partial sums of a two-by-two matrix |
+//! | `lamp` | a sphere over a face, also cut by the horizon: rho L F |
+//! | `shade` | a ball that shades a floor from an even sky |
+//! | `panel` | a box over a floor: the parallel rectangle, and any box by Lambert's polygon sum |
+//! | `pinhole` | the ellipse that a sphere is in a picture |
+//! | `seen` | what is seen directly, and nothing at all: the very bits |
+//! | `view` | Lambert's floor from head-on to grazing |
+//! | `literal` | the paper's weight: its bias by quadrature |
+//! | `agreement` | no closed form: all unbiased settings agree with one long render |
+//!
+//! `cross` crosses them with the knobs that must not matter. Two forms that others use have no
+//! counterpart: a point light in the middle of a sphere, and a glass box seen head-on; here
+//! are no point lights and no glass.
+//!
 //! Every comparison is one of [`support::gate::Form`]'s: a mean within 4 standard errors of the truth
-//! (p = 6.3e-5, two-sided) at a standard error of 0.2 % of it or less; or, where an estimator has
-//! no variance, every sample within 1e-5; or the very bits. Seeds are fixed, so that a device gives the
-//! same answer every time, and no two renders share one. Each gate is also shown to reject
-//! renders that are wrong by little.
+//! (p = 6.3e-5, two-sided), or within 1e-5 of it, at a standard error of 0.2 % of it or less; or, where an
+//! estimator has no variance, every sample within 1e-5; or the very bits. Seeds are fixed, so that a
+//! device gives the same answer every time, and no two renders share one. Each gate is also shown to
+//! reject renders that are wrong by little.
 
 mod support;
 
@@ -17,6 +35,9 @@ mod closed_forms {
     mod lamp;
     mod literal;
     mod lobe;
+    mod panel;
+    mod pinhole;
     mod seen;
     mod shade;
+    mod view;
 }

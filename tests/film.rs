@@ -1,8 +1,13 @@
-//! Moments, image files and their records, outputs, and hostile inputs.
+//! Moments, image files of lampray's and of other programs, records, outputs, and hostile inputs.
 
 mod film {
+    mod bombs;
+    mod craft;
     mod curve;
+    mod damage;
     mod files;
+    mod foreign;
+    mod foreign_png;
     mod hostile;
     mod moments;
     mod output;

@@ -2,6 +2,7 @@
 
 mod check;
 mod devices;
+mod diff;
 mod knobs;
 mod merge;
 mod options;
@@ -52,30 +53,34 @@ enum Command {
     Points(points::Command),
     Rerun(rerun::Command),
     Merge(merge::Command),
+    Diff(Box<diff::Command>),
 }
 
 /// Runs the program and says with which code it ends.
 pub fn main() -> ExitCode {
     panic::set_hook(Box::new(report_panic));
     let line = Lampray::parse();
+    let diff = matches!(line.command, Command::Diff(_));
     let outcome = panic::catch_unwind(move || run(line));
     match outcome {
-        Ok(Ok(())) => signal::exit_code(),
+        Ok(Ok(code)) => code,
         Ok(Err(error)) => {
             match &error {
                 // It is text of many lines already, each mistake with its place.
                 Error::Scene(page) => note(page),
                 other => note(&format!("lampray: {other}")),
             }
-            ExitCode::from(code(&error))
+            let trouble = diff.then(|| diff::trouble(&error)).flatten();
+            ExitCode::from(trouble.unwrap_or(code(&error)))
         }
         // The hook has said what there is to say.
         Err(_) => ExitCode::from(INTERNAL),
     }
 }
 
-fn run(line: Lampray) -> Result<()> {
+fn run(line: Lampray) -> Result<ExitCode> {
     match line.command {
+        Command::Diff(command) => return command.run(line.output).map(ExitCode::from),
         Command::Render(command) => command.run(line.output),
         Command::Check(command) => command.run(line.output),
         Command::Knobs(command) => command.run(line.output),
@@ -83,7 +88,8 @@ fn run(line: Lampray) -> Result<()> {
         Command::Points(command) => command.run(line.output),
         Command::Rerun(command) => command.run(line.output),
         Command::Merge(command) => command.run(line.output),
-    }
+    }?;
+    Ok(signal::exit_code())
 }
 
 /// One line instead of Rust's own. A panic that is caught and becomes an error is not reported.

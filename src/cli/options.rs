@@ -1,6 +1,6 @@
 //! Arguments that several commands share, and their one conversion each.
 
-use crate::device::{DeviceKind, DeviceRequest};
+use crate::device::{Device, DeviceKind, DeviceRequest};
 use crate::error::{Error, Result};
 use crate::pack::Rect;
 use crate::render::{self, Chosen};
@@ -103,6 +103,21 @@ impl DeviceOptions {
             Require::Software => DeviceKind::Software,
         });
         render::open(&request, require)
+    }
+}
+
+impl DeviceOptions {
+    /// The device that is asked for; without one, each that is here and opens.
+    pub(crate) fn open_all(&self) -> Result<Vec<Box<dyn Device>>> {
+        if !self.any() {
+            return Ok(vec![self.open()?.device]);
+        }
+        let open =
+            |index| render::open(&DeviceRequest::Index(index), None).map(|chosen| chosen.device);
+        let opened: Vec<_> = (0..render::devices().len())
+            .filter_map(|index| open(index).ok())
+            .collect();
+        Ok(opened)
     }
 }
 

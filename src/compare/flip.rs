@@ -50,7 +50,7 @@ const ACES: [f64; 5] = [0.36 * 2.51, 0.6 * 0.03, 0.36 * 2.43, 0.6 * 0.59, 0.14];
 
 /// The exposures at which pictures of high dynamic range are compared: `count` of them, evenly from
 /// `start` to `stop`, both included; `count` 1 is `start` alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Exposures {
     /// Stops: light is multiplied by 2^start.
     pub start: f32,

@@ -30,6 +30,16 @@ pub(super) fn array<const N: usize>(path: &Path, reader: &mut impl Read) -> Resu
     }
 }
 
+/// A little-endian whole number, as EXR has them.
+pub(super) fn i32_le(path: &Path, reader: &mut impl Read) -> Result<i32> {
+    Ok(i32::from_le_bytes(array(path, reader)?))
+}
+
+/// The same without a sign.
+pub(super) fn u32_le(path: &Path, reader: &mut impl Read) -> Result<u32> {
+    Ok(u32::from_le_bytes(array(path, reader)?))
+}
+
 /// Reads `size` bytes, growing as they arrive rather than as they are announced. Limits are the
 /// caller's.
 pub(super) fn vector(path: &Path, reader: &mut impl Read, size: u64) -> Result<Vec<u8>> {

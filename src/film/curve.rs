@@ -44,7 +44,7 @@ impl Curve {
 }
 
 /// The opto-electronic curve of IEC 61966-2-1, 0..1 to 0..1.
-fn srgb(linear: f64) -> f64 {
+pub(super) fn srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
     } else {

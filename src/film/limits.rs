@@ -9,8 +9,8 @@ const SIDE_LIMIT: i64 = 32768;
 const PIXEL_LIMIT: i64 = 1 << 28;
 /// What is smaller, in bytes, is decoded however small its file is.
 const DECODED_LIMIT: u64 = 64 << 20;
-/// The same for the pixels that it becomes; half values and bits grow.
-const RASTER_LIMIT: u64 = 128 << 20;
+/// The same for the pixels that it becomes, as half values and bits grow; those of a 4K picture fit.
+const RASTER_LIMIT: u64 = 100 << 20;
 /// A file of a larger picture may be smaller than it by this factor: noise and edges of a real
 /// picture cannot be compressed as zeros can.
 const RATIO: u64 = 200;

@@ -26,6 +26,7 @@ mod raster;
 mod raster_file;
 mod read;
 mod record;
+mod tables;
 mod text;
 
 pub use curve::Curve;

@@ -1,6 +1,7 @@
 //! What an image file holds.
 
-use super::Record;
+use super::{Curve, Noise, Pixels, Raster, Record, Transfer};
+use crate::knobs::Encoding;
 use crate::pack::Feature;
 
 /// A finished picture; all pixels row-major from the top left, channels R, G, B.
@@ -36,6 +37,47 @@ impl Picture {
             .chain(features)
             .find(|length| *length != pixels);
         wrong.map(|length| format!("a plane has {length} pixels, the picture has {pixels}"))
+    }
+
+    /// The picture as reading its EXR gives it.
+    pub fn raster(&self) -> Raster {
+        Raster {
+            pixels: Pixels::Linear(self.mean.clone()),
+            noise: Some(Noise {
+                variance: self.variance.clone(),
+                samples: self.samples.clone(),
+            }),
+            ..self.bare_raster()
+        }
+    }
+
+    /// The picture as reading its PNG gives it.
+    pub fn encoded_raster(&self) -> Raster {
+        let curve = Curve::of(&self.record);
+        let gain = curve.gain();
+        let encode = |rgb: &[f32; 3]| rgb.map(|value| curve.encode(f64::from(value) * gain));
+        let transfer = match curve.encoding {
+            Encoding::Srgb => Transfer::Srgb,
+            Encoding::Gamma22 => Transfer::Power(2.2),
+        };
+        let bytes = self.mean.iter().map(encode).collect();
+        Raster {
+            pixels: Pixels::Bytes(bytes, transfer),
+            ..self.bare_raster()
+        }
+    }
+
+    fn bare_raster(&self) -> Raster {
+        Raster {
+            width: self.width,
+            height: self.height,
+            origin: [0, 0],
+            pixels: Pixels::Linear(Vec::new()),
+            noise: None,
+            record: Some(self.record.clone()),
+            format: "rendered".into(),
+            left_aside: Vec::new(),
+        }
     }
 
     /// Samples of a pixel, exactly: f32 counts above 2^24 are rounded, the record's is not.

@@ -1,7 +1,7 @@
 //! Rectangles of pixels.
 
 /// A rectangle of pixels; `x1` and `y1` are one past its last column and row, y grows downwards.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Rect {
     pub x0: u32,
     pub y0: u32,

@@ -2,6 +2,7 @@
 //! boxes, two lamps, a box that shines and a sky. Every setting that claims no bias must give the picture
 //! of one long render.
 
+use super::cross::{DIFFUSE, ORDERS, POLES, RULES, SAMPLERS, STRATEGIES};
 use crate::support::bench::{Bench, benches};
 use crate::support::gate::{Case, Family, Form, measure_mean};
 use std::sync::LazyLock;
@@ -53,11 +54,6 @@ radius = 0.6
 material = "large"
 "#;
 
-const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
-const STRATEGIES: [&str; 3] = ["mis", "hit", "sample"];
-const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
-const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
-
 /// The long render: the reference preset on the CPU twin, under a seed of its own.
 static LONG: LazyLock<Form> = LazyLock::new(|| {
     let case = Case::new("long", SCENE, Form::Mean([0.0; 3]));
@@ -79,12 +75,9 @@ fn settings(bench: Bench) -> Vec<Case> {
                 .set("light.sampler", sampler)
                 .set("light.strategy", strategy)
                 .set("light.pole", POLES[(s + t) % 3])
-                .set("scatter.diffuse", ["cosine", "uniform"][(s / 2 + t) % 2])
+                .set("scatter.diffuse", DIFFUSE[(s / 2 + t) % 2])
                 .set("interruption.rule", RULES[(s + t + bench as usize) % 4])
-                .set(
-                    "interruption.order",
-                    ["after-direct", "before-direct"][(s + t / 2) % 2],
-                )
+                .set("interruption.order", ORDERS[(s + t / 2) % 2])
                 .set("interruption.start", (s + 2 * t) % 3);
             cases.push(case);
         }

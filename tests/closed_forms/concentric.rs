@@ -4,20 +4,14 @@
 //! inner sphere fills k = (r / R)^2, so that one more reflection makes of (inner, outer)
 //! (rho_i outer, rho_o (k inner + (1 - k) outer)). A limit on reflections leaves a partial sum.
 
-use crate::support::bench::{Bench, benches};
+use super::cross::{SAMPLERS, STRATEGIES, check_all, crossed};
+use crate::support::bench::benches;
 use crate::support::gate::{Case, Family, Form};
 
 const INNER: f64 = 1.0;
 const OUTER: f64 = 2.0;
 const EMISSION: [f64; 3] = [1.0, 2.5, 4.0];
 const ALBEDO: [f64; 3] = [0.6, 0.5, 0.4];
-
-const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
-const STRATEGIES: [&str; 3] = ["sample", "hit", "mis"];
-const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
-const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
-const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
-const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
 
 /// The spheres, and which of them is looked at.
 #[derive(Clone, Copy, Debug)]
@@ -81,75 +75,18 @@ impl Spheres {
     }
 }
 
-/// Every sampler with every strategy, twice on each device, with rules so chosen that the two devices
-/// together see all 48 triples, and each device every pair of sampler and rule and of
-/// strategy and rule. The other knobs go round beside them.
-fn crossed(bench: Bench) -> Vec<Case> {
-    let mut cases = Vec::new();
-    for (s, sampler) in SAMPLERS.iter().enumerate() {
-        for (t, strategy) in STRATEGIES.iter().enumerate() {
-            for half in [0, 1] {
-                let rule = (s + t + 2 * half + bench as usize) % 4;
-                let spheres = Spheres {
-                    inner_albedo: [0.4, 0.0][(s + half) % 2],
-                    max_bounces: [2, 3, 1, 5][(s + 2 * t + half) % 4],
-                    ..PLAIN
-                };
-                let case = spheres
-                    .case()
-                    .set("light.sampler", sampler)
-                    .set("light.strategy", strategy)
-                    .set("light.pole", POLES[(t + half + s / 2 + t / 2) % 3])
-                    .set("scatter.diffuse", DIFFUSE[(half) % 2])
-                    .set("interruption.rule", RULES[rule])
-                    .set("interruption.order", ORDERS[(s / 2 + t / 2) % 2])
-                    .set("interruption.start", 0);
-                cases.push(case);
-            }
-        }
-    }
-    cases
-}
-
-/// The values of some knobs that appear together in a list of cases.
-fn covered(cases: &[Case], paths: [&str; 2]) -> usize {
-    let value = |case: &Case, path: &str| {
-        let set = case.sets.iter().find(|set| set.starts_with(path));
-        set.cloned().unwrap_or_default()
-    };
-    let pair = |case| paths.map(|path| value(case, path));
-    let all: std::collections::HashSet<_> = cases.iter().map(pair).collect();
-    all.len()
-}
-
 #[test]
-fn the_cross_holds_every_pair() {
-    let knobs = [
-        ("light.sampler", 4),
-        ("light.strategy", 3),
-        ("interruption.rule", 4),
-        ("interruption.order", 2),
-        ("scatter.diffuse", 2),
-        ("light.pole", 3),
-    ];
-    for bench in [Bench::Twin, Bench::Vulkan] {
-        let cases = crossed(bench);
-        for (i, (a, a_values)) in knobs.iter().enumerate() {
-            for (b, b_values) in &knobs[i + 1..] {
-                let pairs = covered(&cases, [a, b]);
-                assert_eq!(pairs, a_values * b_values, "{bench:?}: {a} with {b}");
-            }
-        }
-    }
-}
-
-#[test]
-fn every_sampler_strategy_and_interruption_gives_the_series() {
+fn every_knob_gives_the_series() {
     let mut family = Family::new("concentric spheres, crossed", 1000);
     for bench in benches() {
-        for case in crossed(bench) {
-            family.check(bench, &case);
-        }
+        check_all(&mut family, bench, &crossed(bench), |choice| {
+            let spheres = Spheres {
+                inner_albedo: choice.pick(&[0.4, 0.0]),
+                max_bounces: choice.pick(&[2, 3, 1, 5]),
+                ..PLAIN
+            };
+            spheres.case()
+        });
     }
     family.finish();
 }

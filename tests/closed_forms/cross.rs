@@ -8,17 +8,18 @@
 
 use crate::support::bench::Bench;
 use crate::support::gate::{Case, Family};
+use lampray::knobs::*;
 
-const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
-const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
-const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
-const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
-const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
-const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
+pub const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
+pub const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
+pub const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
+pub const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
+pub const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
+pub const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
 
 /// One value of each knob, as a place in its list above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Choice {
+pub struct Row {
     sampler: usize,
     pole: usize,
     strategy: usize,
@@ -27,7 +28,7 @@ pub struct Choice {
     order: usize,
 }
 
-impl Choice {
+impl Row {
     pub fn apply(self, case: Case) -> Case {
         case.set("light.sampler", SAMPLERS[self.sampler])
             .set("light.pole", POLES[self.pole])
@@ -52,7 +53,7 @@ impl Choice {
 
 /// All 96 of sampler, strategy, rule and way to scatter, and those of the first sampler, whose law
 /// turns with the pole, with the pole at the receiver too. Poles and orders go round beside them.
-fn full() -> Vec<Choice> {
+fn full() -> Vec<Row> {
     let mut all = Vec::new();
     for index in 0..120 {
         let (variant, strategy, rule, diffuse) =
@@ -64,7 +65,7 @@ fn full() -> Vec<Choice> {
             (rule + diffuse) % 3,
             1,
         ];
-        all.push(Choice {
+        all.push(Row {
             sampler: variant % 4,
             pole: poles[variant],
             strategy,
@@ -78,12 +79,12 @@ fn full() -> Vec<Choice> {
 
 /// Sixteen rows with every pair of values. Columns are a, b and a + k b over the field of four
 /// elements, k = 1, w, w^2; the last one's two bits are two knobs. The second device has other triples.
-pub fn covering(bench: Bench) -> Vec<Choice> {
+pub fn covering(bench: Bench) -> Vec<Row> {
     const BY_W: [usize; 4] = [0, 2, 3, 1];
     let row = |index: usize| {
         let (a, b) = (index / 4, index % 4);
         let last = a ^ BY_W[BY_W[b]];
-        Choice {
+        Row {
             sampler: a,
             pole: [0, 1, 2, 1][a ^ BY_W[b]],
             strategy: [0, 1, 2, 1][a ^ b ^ (bench as usize)],
@@ -96,7 +97,7 @@ pub fn covering(bench: Bench) -> Vec<Choice> {
 }
 
 /// The full cross on the twin, the covering one on a graphics device.
-pub fn crossed(bench: Bench) -> Vec<Choice> {
+pub fn crossed(bench: Bench) -> Vec<Row> {
     match bench {
         Bench::Twin => full(),
         Bench::Vulkan => covering(bench),
@@ -104,20 +105,15 @@ pub fn crossed(bench: Bench) -> Vec<Choice> {
 }
 
 /// Checks the case of each choice.
-pub fn check_all(
-    family: &mut Family,
-    bench: Bench,
-    choices: &[Choice],
-    case: impl Fn(Choice) -> Case,
-) {
+pub fn check_all(family: &mut Family, bench: Bench, choices: &[Row], case: impl Fn(Row) -> Case) {
     for &choice in choices {
         family.check(bench, &choice.apply(case(choice)));
     }
 }
 
 /// A choice's values in the order of [`SIZES`].
-fn values(choice: &Choice) -> [usize; 6] {
-    let Choice {
+fn values(choice: &Row) -> [usize; 6] {
+    let Row {
         sampler,
         pole,
         strategy,
@@ -130,7 +126,7 @@ fn values(choice: &Choice) -> [usize; 6] {
 
 const SIZES: [usize; 6] = [4, 3, 4, 2, 2, 3];
 
-fn count<T: std::hash::Hash + Eq>(choices: &[Choice], of: impl Fn([usize; 6]) -> T) -> usize {
+fn count<T: std::hash::Hash + Eq>(choices: &[Row], of: impl Fn([usize; 6]) -> T) -> usize {
     let all: std::collections::HashSet<_> = choices.iter().map(|one| of(values(one))).collect();
     all.len()
 }
@@ -168,4 +164,18 @@ fn the_full_cross_holds_all_of_them() {
             );
         }
     }
+}
+
+/// A value that is added to a knob belongs here too.
+#[test]
+fn every_value_of_the_knobs_is_crossed() {
+    fn check<T: std::fmt::Display>(all: &[T], listed: &[&str]) {
+        let names: std::collections::HashSet<_> = all.iter().map(T::to_string).collect();
+        assert_eq!(names, listed.iter().map(|name| name.to_string()).collect());
+    }
+    check(LightSampler::ALL, &SAMPLERS);
+    check(LightStrategy::ALL, &STRATEGIES);
+    check(InterruptionRule::ALL, &RULES);
+    check(InterruptionOrder::ALL, &ORDERS);
+    check(ScatterDiffuse::ALL, &DIFFUSE);
 }

@@ -1,5 +1,6 @@
 //! Files that are cut short, damaged or made to do harm: an error each time, never a panic.
 
+use super::craft::attribute;
 use super::sample::{Folder, Random, picture, write};
 use lampray::Error;
 use lampray::film::{read_exr, read_record};
@@ -98,13 +99,6 @@ fn images_of_other_programs() {
     writer.write_image_data(&[7]).unwrap();
     drop(writer);
     assert!(refusal(&png).contains("not written by lampray"));
-}
-
-fn attribute(name: &str, kind: &str, value: &[u8]) -> Vec<u8> {
-    let mut bytes = [name.as_bytes(), b"\0", kind.as_bytes(), b"\0"].concat();
-    bytes.extend((value.len() as u32).to_le_bytes());
-    bytes.extend(value);
-    bytes
 }
 
 /// A header of one float32 channel after another, with this record, and nothing behind it.

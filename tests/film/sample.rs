@@ -203,3 +203,19 @@ pub fn write(picture: &Picture, path: &Path) {
         .write(picture)
         .unwrap();
 }
+
+/// A file of another program.
+pub fn fixture(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    root.join("tests/fixtures").join(name)
+}
+
+/// All of them, in order.
+pub fn fixtures() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(fixture("")).unwrap();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    let image = |path: &PathBuf| path.extension().is_some_and(|e| e == "exr" || e == "png");
+    files.retain(image);
+    files.sort();
+    files
+}

@@ -1,9 +1,11 @@
 //! The attributes of a header, each a name, a type, a size and a value.
 
-use super::part::{Channel, Kind, Tiling};
+use super::part::{Channel, Kind};
 use crate::error::Result;
 use crate::film::bytes;
 use crate::film::text::{self, RECORD_LIMIT, STORED_LIMIT};
+use exr::math::{RoundingMode, Vec2};
+use exr::meta::attribute::{LevelMode, TileDescription};
 use exr::prelude::SampleType;
 use std::io::Read;
 use std::path::Path;
@@ -22,10 +24,11 @@ pub(super) struct Attributes {
     pub compression: Option<u8>,
     /// Left, top, right, bottom, all of them inclusive.
     pub window: Option<[i32; 4]>,
-    pub tiling: Option<Tiling>,
+    pub tiling: Option<TileDescription>,
     pub kind: Option<Kind>,
     pub name: Option<String>,
-    pub chunks: Option<u32>,
+    /// How many, at all resolutions.
+    pub blocks: Option<u32>,
     /// The attribute `lampray`.
     pub record: Option<Vec<u8>>,
     /// The attribute `lampray_scene`, still compressed.
@@ -42,7 +45,7 @@ impl Attributes {
         }
         while !name.is_empty() {
             let kind = read_name(path, reader)?;
-            let size = u32::from_le_bytes(bytes::array(path, reader)?) as usize;
+            let size = bytes::u32_le(path, reader)? as usize;
             attributes.read_value(path, reader, (&name, &kind), size)?;
             name = read_name(path, reader)?;
         }
@@ -85,12 +88,11 @@ impl Attributes {
             b"channels" => self.channels = Some(channels(path, rest)?),
             b"compression" => self.compression = Some(bytes::array::<1>(path, rest)?[0]),
             b"dataWindow" => {
-                let edges = bytes::array::<16>(path, rest)?;
-                let edge = |i: usize| i32::from_le_bytes([0, 1, 2, 3].map(|b| edges[4 * i + b]));
-                self.window = Some([edge(0), edge(1), edge(2), edge(3)]);
+                let mut edge = || bytes::i32_le(path, rest);
+                self.window = Some([edge()?, edge()?, edge()?, edge()?]);
             }
             b"tiles" => self.tiling = Some(tiling(path, rest)?),
-            b"chunkCount" => self.chunks = Some(u32::from_le_bytes(bytes::array(path, rest)?)),
+            b"chunkCount" => self.blocks = Some(bytes::u32_le(path, rest)?),
             b"type" => self.kind = Some(part_kind(path, &value)?),
             _ => self.name = Some(String::from_utf8_lossy(&value).into_owned()),
         }
@@ -122,7 +124,7 @@ fn channels(path: &Path, value: &mut impl Read) -> Result<Vec<Channel>> {
             return Ok(channels);
         }
         let name = text::utf8(path, "the name of a channel", name)?;
-        let samples = match u32::from_le_bytes(bytes::array(path, value)?) {
+        let samples = match bytes::u32_le(path, value)? {
             0 => SampleType::U32,
             1 => SampleType::F16,
             2 => SampleType::F32,
@@ -132,8 +134,7 @@ fn channels(path: &Path, value: &mut impl Read) -> Result<Vec<Channel>> {
             }
         };
         let [linear, _, _, _] = bytes::array(path, value)?;
-        let sampling =
-            [bytes::array(path, value)?, bytes::array(path, value)?].map(i32::from_le_bytes);
+        let sampling = [bytes::i32_le(path, value)?, bytes::i32_le(path, value)?];
         if channels.len() == CHANNEL_LIMIT || channels.iter().any(|channel| channel.name == name) {
             let reason = format!("channel {name:?} is there twice, or one too many");
             return Err(bytes::data(path, reason));
@@ -147,17 +148,29 @@ fn channels(path: &Path, value: &mut impl Read) -> Result<Vec<Channel>> {
     }
 }
 
-fn tiling(path: &Path, value: &mut impl Read) -> Result<Tiling> {
-    let size = [bytes::array(path, value)?, bytes::array(path, value)?].map(u32::from_le_bytes);
+/// Width, height, and a byte: levels in its lower half, and in its upper one how they are rounded.
+fn tiling(path: &Path, value: &mut impl Read) -> Result<TileDescription> {
+    let size = [bytes::u32_le(path, value)?, bytes::u32_le(path, value)?];
     let [mode] = bytes::array(path, value)?;
-    if size.contains(&0) || mode & 15 > 2 || mode >> 4 > 1 {
-        return Err(bytes::data(path, "a broken description of tiles"));
+    let level_mode = match mode & 15 {
+        0 => Some(LevelMode::Singular),
+        1 => Some(LevelMode::MipMap),
+        2 => Some(LevelMode::RipMap),
+        _ => None,
+    };
+    let rounding_mode = match mode >> 4 {
+        0 => Some(RoundingMode::Down),
+        1 => Some(RoundingMode::Up),
+        _ => None,
+    };
+    match level_mode.zip(rounding_mode) {
+        Some((level_mode, rounding_mode)) if !size.contains(&0) => Ok(TileDescription {
+            tile_size: Vec2(size[0] as usize, size[1] as usize),
+            level_mode,
+            rounding_mode,
+        }),
+        _ => Err(bytes::data(path, "a broken description of tiles")),
     }
-    Ok(Tiling {
-        size,
-        levels: mode & 15,
-        round_up: mode >> 4 == 1,
-    })
 }
 
 fn part_kind(path: &Path, value: &[u8]) -> Result<Kind> {

@@ -1,5 +1,6 @@
 //! Reads the blocks of the first part, in the order in which the file has them.
 
+use super::codebook;
 use super::header::Header;
 use super::layout::{Area, Layout};
 use super::part::{Kind, Part};
@@ -12,7 +13,7 @@ use exr::math::{RoundingMode, Vec2};
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{IntegerBounds, LevelMode, TileDescription};
 use exr::meta::header::Header as ExrHeader;
-use exr::prelude::{ChannelDescription, LineOrder, SmallVec, Text};
+use exr::prelude::{ChannelDescription, Compression, LineOrder, SmallVec, Text};
 use rayon::prelude::*;
 use std::io::Read;
 use std::path::Path;
@@ -21,6 +22,8 @@ use std::path::Path;
 const BLOCK_LIMIT: usize = 256 << 20;
 /// So many bytes, decompressed, are decompressed at once, on all cores.
 const BATCH: usize = 16 << 20;
+/// Tiles of one pixel each would need far more memory for their places than for their pixels.
+const BATCH_BLOCKS: usize = 4096;
 
 /// Reads the channels that are wanted; the table of offsets is what comes next in the file.
 pub(super) fn read_planes(
@@ -32,10 +35,9 @@ pub(super) fn read_planes(
     let blocks = Blocks::new(path, header)?;
     header.skip_offsets(path, reader)?;
     let mut planes = Planes::new(&header.part, wanted);
-    let mut seen = vec![false; blocks.layout.blocks()];
-    let mut missing = seen.len();
-    while missing > 0 {
-        let batch = blocks.read_batch(reader, &mut seen, &mut missing)?;
+    let mut progress = Progress::new(blocks.layout.blocks());
+    while progress.missing > 0 {
+        let batch = blocks.read_batch(reader, &mut progress)?;
         let decompressed: Vec<(Area, Vec<u8>)> = batch
             .into_par_iter()
             .map(|(area, compressed)| Ok((area, blocks.decompress(area, compressed)?)))
@@ -44,7 +46,30 @@ pub(super) fn read_planes(
             planes.fill(area, &pixels);
         }
     }
+    // Other parts and smaller levels may follow; a file that is cut short there is broken too.
+    while progress.read < header.blocks {
+        blocks.read_place(reader, &mut progress)?;
+    }
     Ok(planes)
+}
+
+/// Which blocks have been read.
+struct Progress {
+    /// Of the first part, at full resolution.
+    seen: Vec<bool>,
+    missing: usize,
+    /// Of all parts and levels.
+    read: u64,
+}
+
+impl Progress {
+    fn new(blocks: usize) -> Progress {
+        Progress {
+            seen: vec![false; blocks],
+            missing: blocks,
+            read: 0,
+        }
+    }
 }
 
 struct Blocks<'a> {
@@ -86,28 +111,23 @@ impl<'a> Blocks<'a> {
     fn read_batch(
         &self,
         reader: &mut impl Read,
-        seen: &mut [bool],
-        missing: &mut usize,
+        progress: &mut Progress,
     ) -> Result<Vec<(Area, Vec<u8>)>> {
         let mut batch = Vec::new();
         let mut size = 0;
-        while *missing > 0 && size < BATCH {
-            let Some((number, area)) = self.read_place(reader)? else {
-                continue;
-            };
-            if std::mem::replace(&mut seen[number], true) {
-                return self.fail("the same block of pixels is there twice");
+        while progress.missing > 0 && size < BATCH && batch.len() < BATCH_BLOCKS {
+            if let Some(area) = self.read_place(reader, progress)? {
+                batch.push((area, self.read_pixels(reader, area)?));
+                size += self.size(area);
             }
-            batch.push((area, self.read_pixels(reader, area)?));
-            *missing -= 1;
-            size += self.size(area);
         }
         Ok(batch)
     }
 
-    /// Reads where the next block belongs. One of another part or of a smaller resolution is
-    /// stepped over, and there is `None`.
-    fn read_place(&self, reader: &mut impl Read) -> Result<Option<(usize, Area)>> {
+    /// Reads where the next block belongs. One of another part or of a smaller level is stepped
+    /// over, and there is `None`.
+    fn read_place(&self, reader: &mut impl Read, progress: &mut Progress) -> Result<Option<Area>> {
+        progress.read += 1;
         let number = match self.header.numbered {
             true => self.integer(reader)? as usize,
             false => 0,
@@ -115,33 +135,42 @@ impl<'a> Blocks<'a> {
         let Some(kind) = self.header.kinds.get(number) else {
             return self.fail("a block of a part that is not there");
         };
-        let place = match kind {
-            Kind::ScanLines | Kind::DeepScanLines => [0, self.integer(reader)?, 0, 0],
-            Kind::Tiles | Kind::DeepTiles => [
-                self.integer(reader)?,
-                self.integer(reader)?,
-                self.integer(reader)?,
-                self.integer(reader)?,
-            ],
+        let (place, level) = match kind {
+            Kind::ScanLines | Kind::DeepScanLines => ([0, self.integer(reader)?], [0, 0]),
+            Kind::Tiles | Kind::DeepTiles => (self.pair(reader)?, self.pair(reader)?),
         };
-        if number == 0 && place[2..] == [0, 0] {
-            return self.locate(*kind, [place[0], place[1]]).map(Some);
+        if number != 0 || level != [0, 0] {
+            self.skip_pixels(reader, *kind)?;
+            return Ok(None);
         }
+        let (block, area) = self.locate(*kind, place)?;
+        if std::mem::replace(&mut progress.seen[block], true) {
+            return self.fail("the same block of pixels is there twice");
+        }
+        progress.missing -= 1;
+        Ok(Some(area))
+    }
+
+    /// Deep pixels have a size for their numbers of values, and two for the values.
+    fn skip_pixels(&self, reader: &mut impl Read, kind: Kind) -> Result<()> {
         let size = match kind {
-            Kind::ScanLines | Kind::Tiles => u64::from(self.integer(reader)? as u32),
+            Kind::ScanLines | Kind::Tiles => u64::from(bytes::u32_le(self.path, reader)?),
             Kind::DeepScanLines | Kind::DeepTiles => {
-                let counts = u64::from_le_bytes(bytes::array(self.path, reader)?);
-                let samples = u64::from_le_bytes(bytes::array(self.path, reader)?);
+                let numbers = u64::from_le_bytes(bytes::array(self.path, reader)?);
+                let values = u64::from_le_bytes(bytes::array(self.path, reader)?);
                 bytes::skip(self.path, reader, 8)?;
-                counts.saturating_add(samples)
+                numbers.saturating_add(values)
             }
         };
-        bytes::skip(self.path, reader, size)?;
-        Ok(None)
+        bytes::skip(self.path, reader, size)
+    }
+
+    fn pair(&self, reader: &mut impl Read) -> Result<[i32; 2]> {
+        Ok([self.integer(reader)?, self.integer(reader)?])
     }
 
     fn integer(&self, reader: &mut impl Read) -> Result<i32> {
-        Ok(i32::from_le_bytes(bytes::array(self.path, reader)?))
+        bytes::i32_le(self.path, reader)
     }
 
     /// A tile says its column and row, scan lines the uppermost of them.
@@ -166,7 +195,7 @@ impl<'a> Blocks<'a> {
 
     /// A block that does not get smaller is stored as it is, so none is larger than its pixels.
     fn read_pixels(&self, reader: &mut impl Read, area: Area) -> Result<Vec<u8>> {
-        let size = self.integer(reader)? as u32;
+        let size = bytes::u32_le(self.path, reader)?;
         if size == 0 || size as usize > self.size(area) {
             return self.fail(format!("a block of pixels of {size} bytes"));
         }
@@ -180,6 +209,11 @@ impl<'a> Blocks<'a> {
             size: Vec2(area.width, area.height),
         };
         let compression = self.header.part.compression;
+        // What is as large as its pixels is stored as it is.
+        let coded = compression == Compression::PIZ && compressed.len() < self.size(area);
+        if coded && codebook::is_made_up(&compressed, self.size(area) / 2) {
+            return self.fail("broken pixels: codes that no encoder makes");
+        }
         let decompress =
             || compression.decompress_image_section_from_le(&self.exr, compressed, bounds, false);
         match catch(decompress) {

@@ -25,15 +25,15 @@ pub(super) struct Header {
     pub numbered: bool,
     /// Names of the parts after the first.
     pub others: Vec<String>,
-    /// Entries of the table of offsets, of all parts.
-    chunks: u64,
+    /// Blocks of all parts and levels, each with an entry in the table of offsets.
+    pub blocks: u64,
 }
 
 impl Header {
     /// Reads up to the end of the attributes; the magic number has been read already.
     pub(super) fn read(path: &Path, reader: &mut impl Read) -> Result<Header> {
         let fail = |reason: &str| Err(bytes::data(path, reason));
-        let version = u32::from_le_bytes(bytes::array(path, reader)?);
+        let version = bytes::u32_le(path, reader)?;
         if version & !(TILES | LONG_NAMES | DEEP | PARTS) != 2 {
             return fail("an EXR of another version than 2, or with unknown flags");
         }
@@ -53,19 +53,8 @@ impl Header {
 
     fn new(path: &Path, version: u32, parts: Vec<Attributes>) -> Result<Header> {
         let numbered = version & PARTS != 0;
-        let kind = |part: &Attributes| match part.kind {
-            // The flag of a single part stands above its attribute.
-            Some(kind) if numbered || version & DEEP != 0 => Some(kind),
-            _ if version & TILES != 0 => Some(Kind::Tiles),
-            None if numbered => None,
-            _ => Some(Kind::ScanLines),
-        };
-        let name = |(number, part): (usize, &Attributes)| {
-            let number = || format!("number {}", number + 1);
-            part.name.clone().unwrap_or_else(number)
-        };
-        let kinds: Option<Vec<Kind>> = parts.iter().map(kind).collect();
-        let counted: Option<u64> = parts.iter().map(|part| part.chunks.map(u64::from)).sum();
+        let kinds: Option<Vec<Kind>> = parts.iter().map(|part| kind(version, part)).collect();
+        let counted: Option<u64> = parts.iter().map(|part| part.blocks.map(u64::from)).sum();
         let others = parts.iter().enumerate().skip(1).map(name).collect();
         let (Some(kinds), Some(first)) = (kinds, parts.into_iter().next()) else {
             return Err(bytes::data(
@@ -74,25 +63,43 @@ impl Header {
             ));
         };
         let part = Part::new(path, kinds[0], first)?;
-        let chunks = match counted {
-            Some(chunks) if numbered => chunks,
+        let blocks = match counted {
+            Some(blocks) if numbered => blocks,
             None if numbered => {
                 return Err(bytes::data(path, "a part without the number of its blocks"));
             }
-            _ => layout::all_chunks(&part),
+            _ => layout::all_blocks(&part),
         };
         Ok(Header {
             part,
             kinds,
             numbered,
             others,
-            chunks,
+            blocks,
         })
     }
 
     /// Steps over the table of offsets: it is for jumping to blocks, and here all are read, one
     /// after another. So it may say what it likes.
     pub(super) fn skip_offsets(&self, path: &Path, reader: &mut impl Read) -> Result<()> {
-        bytes::skip(path, reader, self.chunks * 8)
+        bytes::skip(path, reader, self.blocks.saturating_mul(8))
     }
+}
+
+/// `None` where it has to be said and is not.
+fn kind(version: u32, part: &Attributes) -> Option<Kind> {
+    let flag = |flag: u32| version & flag != 0;
+    match part.kind {
+        // The flag of a single part stands above its attribute.
+        Some(kind) if flag(PARTS) || flag(DEEP) => Some(kind),
+        _ if flag(TILES) => Some(Kind::Tiles),
+        None if flag(PARTS) => None,
+        None if flag(DEEP) => Some(Kind::DeepScanLines),
+        _ => Some(Kind::ScanLines),
+    }
+}
+
+fn name((number, part): (usize, &Attributes)) -> String {
+    let number = || format!("number {}", number + 1);
+    part.name.clone().unwrap_or_else(number)
 }

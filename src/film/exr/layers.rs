@@ -13,8 +13,9 @@ pub(super) struct Choice {
     pub noise: bool,
     /// For people, where it is not plain R, G and B.
     pub layer: Option<String>,
-    /// All other channels; an alpha of the picture's own is the first.
+    /// Whether the picture has an alpha of its own.
     pub alpha: bool,
+    /// The names of all other channels.
     pub others: Vec<String>,
 }
 

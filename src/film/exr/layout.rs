@@ -1,6 +1,9 @@
 //! Where the blocks of a part lie.
 
-use super::part::{Part, Tiling};
+use super::part::Part;
+use exr::math::Vec2;
+use exr::meta::attribute::TileDescription;
+use exr::meta::{BlockDescription, compute_chunk_count};
 
 /// A rectangle of pixels, counted from the left and top of the data window.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +30,9 @@ impl Layout {
         let size = [part.width as usize, part.height as usize];
         let block = match part.tiling {
             // A tile may be larger than the picture.
-            Some(tiling) => [0, 1].map(|axis| size[axis].min(tiling.size[axis] as usize)),
+            Some(TileDescription { tile_size, .. }) => {
+                [size[0].min(tile_size.0), size[1].min(tile_size.1)]
+            }
             None => [
                 size[0],
                 size[1].min(part.compression.scan_lines_per_block()),
@@ -62,36 +67,11 @@ impl Layout {
 }
 
 /// Blocks of a part at all its resolutions.
-pub(super) fn all_chunks(part: &Part) -> u64 {
-    let Some(tiling) = part.tiling else {
-        return Layout::new(part).blocks() as u64;
+pub(super) fn all_blocks(part: &Part) -> u64 {
+    let size = Vec2(part.width as usize, part.height as usize);
+    let blocks = match part.tiling {
+        Some(tiling) => BlockDescription::Tiles(tiling),
+        None => BlockDescription::ScanLines,
     };
-    let [columns, rows] = [0, 1].map(|axis| tiles_of_levels(part, &tiling, axis));
-    match tiling.levels {
-        0 => columns[0] * rows[0],
-        // One row after another of ever narrower levels.
-        2 => columns.iter().sum::<u64>() * rows.iter().sum::<u64>(),
-        _ => columns.iter().zip(&rows).map(|(c, r)| c * r).sum(),
-    }
-}
-
-/// How many tiles lie side by side in one direction, level by level.
-fn tiles_of_levels(part: &Part, tiling: &Tiling, axis: usize) -> Vec<u64> {
-    let size = [part.width, part.height];
-    // Levels that are halved in both directions go on until both sides are 1.
-    let longest = match tiling.levels {
-        2 => size[axis],
-        _ => size[0].max(size[1]),
-    };
-    let halvings = match tiling.round_up {
-        true => longest.next_power_of_two().ilog2(),
-        false => longest.ilog2(),
-    };
-    let side = |level: u32| match tiling.round_up {
-        true => size[axis].div_ceil(1 << level),
-        false => (size[axis] >> level).max(1),
-    };
-    (0..=halvings)
-        .map(|level| u64::from(side(level).div_ceil(tiling.size[axis])))
-        .collect()
+    compute_chunk_count(part.compression, size, blocks) as u64
 }

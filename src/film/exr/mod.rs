@@ -13,6 +13,7 @@
 mod attributes;
 mod blocks;
 mod channels;
+mod codebook;
 mod header;
 mod layers;
 mod layout;

@@ -3,6 +3,7 @@
 use super::attributes::Attributes;
 use crate::error::Result;
 use crate::film::{bytes, limits};
+use exr::meta::attribute::TileDescription;
 use exr::prelude::{Compression, SampleType};
 use std::path::Path;
 
@@ -25,21 +26,13 @@ pub(super) struct Channel {
     pub sampling: [i32; 2],
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tiling {
-    pub size: [u32; 2],
-    /// 0: the picture alone; 1: smaller and smaller ones; 2: smaller in each direction by itself.
-    pub levels: u8,
-    pub round_up: bool,
-}
-
 /// The part whose pixels are read: checked, of one value a pixel in every channel.
 #[derive(Debug)]
 pub(super) struct Part {
     pub channels: Vec<Channel>,
     pub compression: Compression,
     /// `None` for scan lines.
-    pub tiling: Option<Tiling>,
+    pub tiling: Option<TileDescription>,
     /// Left and top of the data window, from which columns and rows are counted.
     pub origin: [i32; 2],
     pub width: u32,

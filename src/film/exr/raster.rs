@@ -9,6 +9,7 @@ use super::planes::Wanted;
 use crate::error::Result;
 use crate::film::input::Input;
 use crate::film::{Noise, Pixels, Raster, Record, bytes, limits, text};
+use exr::meta::attribute::{LevelMode, TileDescription};
 use exr::prelude::SampleType;
 use std::path::Path;
 
@@ -107,7 +108,8 @@ fn format(part: &Part, choice: &Choice) -> String {
 
 fn left_aside(header: &Header, choice: &Choice) -> Vec<String> {
     let alpha = choice.alpha.then(|| "alpha".into());
-    let levels = header.part.tiling.filter(|tiling| tiling.levels > 0);
+    let many = |tiling: &TileDescription| tiling.level_mode != LevelMode::Singular;
+    let levels = header.part.tiling.filter(many);
     let notes = [
         alpha,
         listed("channel", &choice.others),

@@ -33,7 +33,7 @@ impl Family {
     /// Renders a case and compares it with what it must be.
     pub fn check(&mut self, bench: Bench, case: &Case) {
         // A measured truth's own error takes its part.
-        let film = case.film(bench, self.next_seed(), 0.9 * case.most_error);
+        let film = case.film(bench, self.next_seed(), 0.95 * case.most_error);
         self.made.extend(compare(case, bench, &film));
     }
 

@@ -1,0 +1,289 @@
+//! A comparison in words, for people.
+
+use crate::compare::verdict::{Estimate, Outcome, Spot, Verdict, quantile};
+use crate::compare::{Comparison, Described, Figure, Judgement, Kinship, Metric};
+use std::fmt::Write as _;
+use std::path::Path;
+
+const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
+/// The whole report. Writing into a string cannot fail, so nothing is lost by not asking.
+pub(super) fn report(comparison: &Comparison, reference: &Path, test: &Path) -> String {
+    let mut text = String::new();
+    describe(&mut text, "A", reference, &comparison.reference);
+    describe(&mut text, "B", test, &comparison.test);
+    if let Some(kinship) = &comparison.kinship {
+        relate(&mut text, kinship);
+    }
+    for warning in &comparison.warnings {
+        let _ = writeln!(text, "note: {warning}");
+    }
+    let finite = comparison.non_finite;
+    if finite.first.is_some() {
+        let _ = writeln!(
+            text,
+            "not finite: {} pixels of A, {} of B; {} unlike",
+            finite.reference, finite.test, finite.apart
+        );
+    }
+    if comparison.identical {
+        let _ = writeln!(text, "every pixel is identical");
+    }
+    for figure in &comparison.figures {
+        let _ = writeln!(
+            text,
+            "  {:<9}{:<12} {}",
+            figure.metric.title(),
+            value_of(figure),
+            figure.settings
+        );
+    }
+    if !comparison.worst_tiles.is_empty() {
+        let _ = writeln!(text, "worst 32x32 tiles, linear light:");
+    }
+    for tile in &comparison.worst_tiles {
+        let r = tile.rect;
+        let _ = writeln!(
+            text,
+            "  x {:>5}..{:<5} y {:>5}..{:<5} RMSE {:<11} mean B - A {:+.3e}",
+            r.x0,
+            r.x1,
+            r.y0,
+            r.y1,
+            short(tile.rmse),
+            tile.difference
+        );
+    }
+    for gate in &comparison.gates {
+        judge(&mut text, gate);
+    }
+    if let Some(verdict) = &comparison.verdict {
+        conclude(&mut text, verdict);
+    } else if let Some(reason) = comparison
+        .no_verdict
+        .as_ref()
+        .filter(|_| !comparison.identical)
+    {
+        let _ = writeln!(text, "no verdict: {reason}");
+    }
+    text
+}
+
+fn describe(text: &mut String, name: &str, path: &Path, image: &Described) {
+    let _ = write!(
+        text,
+        "{name}  {}: {}, {} x {}",
+        path.display(),
+        image.format,
+        image.width,
+        image.height
+    );
+    if let Some(samples) = image.samples {
+        let _ = write!(text, ", {samples} samples");
+    }
+    if let Some(seed) = image.seed {
+        let _ = write!(text, ", seed {seed}");
+    }
+    if let Some(device) = &image.device {
+        let _ = write!(text, ", {device}");
+    }
+    if !image.left_aside.is_empty() {
+        let _ = write!(text, "; left aside: {}", image.left_aside.join(", "));
+    }
+    text.push('\n');
+}
+
+fn relate(text: &mut String, kinship: &Kinship) {
+    for difference in &kinship.knobs {
+        let _ = writeln!(
+            text,
+            "knob {}: {} -> {}",
+            difference.knob, difference.reference, difference.test
+        );
+    }
+    for other in &kinship.others {
+        let _ = writeln!(text, "{other}");
+    }
+    if kinship.mixed {
+        let _ = writeln!(
+            text,
+            "warning: more differs than one knob, so the difference is not that knob's alone"
+        );
+    }
+}
+
+/// Four digits, or as they are.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !value.is_finite() {
+        format!("{value}")
+    } else if (1e-3..1e5).contains(&size) {
+        let digits = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
+        format!("{value:.digits$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+fn value_of(figure: &Figure) -> String {
+    let unit = if figure.metric == Metric::Psnr {
+        " dB"
+    } else {
+        ""
+    };
+    short(figure.value) + unit
+}
+
+fn judge(text: &mut String, gate: &Judgement) {
+    let state = if gate.passes { "passes" } else { "FAILS" };
+    let sign = if gate.metric.rises() { ">=" } else { "<=" };
+    let _ = match gate.pixels {
+        None => writeln!(
+            text,
+            "{state}: {} {}, wanted {sign} {}",
+            gate.metric,
+            short(gate.value),
+            gate.limit
+        ),
+        Some([failing, allowed]) => writeln!(
+            text,
+            "{state}: {} is over {} in {failing} pixels, {allowed} allowed",
+            gate.metric, gate.limit
+        ),
+    };
+    if !gate.curve.is_empty() {
+        let _ = writeln!(text, "  pixels beyond each limit of {}:", gate.metric);
+    }
+    for step in &gate.curve {
+        let _ = writeln!(
+            text,
+            "  {:>10}  {:>10}  {:>8.4} %",
+            step.limit,
+            step.failing,
+            100.0 * step.share
+        );
+    }
+}
+
+fn conclude(text: &mut String, verdict: &Verdict) {
+    let alpha = verdict.terms.alpha;
+    let how = if verdict.paired {
+        "paired: both were made of the same random numbers"
+    } else {
+        "independent samples"
+    };
+    let outcome = match verdict.outcome {
+        Outcome::Same => "same expected image",
+        Outcome::Different => "different",
+        Outcome::NotEnoughSamples => "not enough samples to tell",
+    };
+    let _ = writeln!(
+        text,
+        "verdict: {outcome} (chance of a false alarm {alpha}; {how})"
+    );
+    match verdict.outcome {
+        Outcome::Same => {
+            let _ = writeln!(
+                text,
+                "  the means of the pictures agree to within {} (wanted: {})",
+                percent(verdict.supported_margin),
+                percent(verdict.terms.margin)
+            );
+        }
+        Outcome::Different => differences(text, verdict),
+        Outcome::NotEnoughSamples => shortage(text, verdict),
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", short(100.0 * share))
+}
+
+/// Half the width of the interval that holds the truth with probability 1 - alpha.
+fn half_width(estimate: &Estimate, alpha: f64) -> f64 {
+    quantile(1.0 - 0.5 * alpha) * estimate.error
+}
+
+fn spelled(estimate: &Estimate, alpha: f64) -> String {
+    let (x, y) = (estimate.difference, half_width(estimate, alpha));
+    let relative = |value: f64| 100.0 * value / estimate.level().max(f64::MIN_POSITIVE);
+    format!(
+        "{x:+.3e} ± {y:.1e} ({:+.3} ± {:.3} %)",
+        relative(x),
+        relative(y)
+    )
+}
+
+fn differences(text: &mut String, verdict: &Verdict) {
+    let alpha = verdict.terms.alpha;
+    for (channel, mean) in verdict.pooled.iter().enumerate() {
+        if verdict.pooled_fails {
+            let _ = writeln!(
+                text,
+                "  mean of the picture, {:<5} {}",
+                CHANNELS[channel],
+                spelled(mean, alpha)
+            );
+        }
+    }
+    if let Some(tiles) = verdict.tiles.as_ref().filter(|tiles| tiles.failing > 0) {
+        let _ = writeln!(
+            text,
+            "  {} of {} tiles of {} x {}; most clearly {}",
+            tiles.failing,
+            tiles.count,
+            tiles.side,
+            tiles.side,
+            place(&tiles.worst, alpha)
+        );
+    }
+    if let Some(pixels) = verdict.pixels.as_ref().filter(|pixels| pixels.fails) {
+        let at = pixels
+            .cluster_at
+            .map_or(String::new(), |[x, y]| format!(" at {x},{y}"));
+        let _ = writeln!(
+            text,
+            "  {} pixels beyond {} standard errors (by chance at most {:.0}), largest cluster {}{at} (chance {:.1e}); most clearly {}",
+            pixels.failing,
+            pixels.far,
+            pixels.expected,
+            pixels.largest_cluster,
+            pixels.cluster_p,
+            place(&pixels.worst, alpha)
+        );
+    }
+}
+
+fn place(spot: &Spot, alpha: f64) -> String {
+    let r = spot.rect;
+    format!(
+        "{} at x {}..{}, y {}..{}: {}",
+        CHANNELS[spot.channel.min(2)],
+        r.x0,
+        r.x1,
+        r.y0,
+        r.y1,
+        spelled(&spot.estimate, alpha)
+    )
+}
+
+fn shortage(text: &mut String, verdict: &Verdict) {
+    let _ = writeln!(
+        text,
+        "  no difference found, but one of {} could have been missed; so far they agree to within {}",
+        percent(verdict.terms.margin),
+        percent(verdict.supported_margin)
+    );
+    let Some(needed) = &verdict.needed else {
+        return;
+    };
+    let _ = write!(
+        text,
+        "  about {} samples a pixel are needed in B and {} in A",
+        needed.test, needed.reference
+    );
+    let _ = match needed.test_alone {
+        Some(test) => writeln!(text, "; or {test} in B alone"),
+        None => writeln!(text),
+    };
+}

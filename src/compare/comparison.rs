@@ -1,0 +1,234 @@
+//! Everything that is to be said of two pictures, and what follows from it.
+
+use super::flip::Exposures;
+use super::gate::{Gate, Judgement};
+use super::metric::{Figure, Metric};
+use super::pair::Pair;
+use super::records::Kinship;
+use super::study::{Study, Viewing};
+use super::survey::{NonFinite, TileError};
+use super::verdict::{self, Outcome, Side, Sides, Terms, Verdict};
+use crate::error::{Error, Result};
+use crate::film::{Noise, Pixels, Raster};
+use serde::Serialize;
+
+/// Pixels up to which metrics that nobody asked for may take their time and memory: a 4K picture.
+const LARGE: usize = 1 << 23;
+
+/// The worst tiles that are named.
+const WORST: usize = 5;
+
+/// What to find, and how to judge it.
+#[derive(Clone, Debug, Default)]
+pub struct Wishes {
+    /// Metrics to report; all that the pictures have where neither these nor gates are given.
+    pub metrics: Vec<Metric>,
+    pub gates: Vec<Gate>,
+    pub viewing: Viewing,
+    pub terms: Terms,
+    /// Whether the verdict counts beside gates, too.
+    pub verdict_counts: bool,
+    /// Whether pixels that are NaN or infinite may be there; they must then be so in both pictures.
+    pub allow_non_finite: bool,
+}
+
+/// One of the two images, for people and programs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Described {
+    pub format: String,
+    pub width: u32,
+    pub height: u32,
+    /// What of the file was left aside.
+    pub left_aside: Vec<String>,
+    /// Samples a pixel, where it is known: the least.
+    pub samples: Option<u64>,
+    pub device: Option<String>,
+    pub seed: Option<u64>,
+}
+
+/// The whole comparison.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    pub conclusion: Outcome,
+    pub reference: Described,
+    pub test: Described,
+    pub identical: bool,
+    pub non_finite: NonFinite,
+    pub figures: Vec<Figure>,
+    /// The exposures of HDR-FLIP, to be given again for other tests of the same reference.
+    pub exposures: Option<Exposures>,
+    pub gates: Vec<Judgement>,
+    pub verdict: Option<Verdict>,
+    /// Why there is no verdict, where there is none.
+    pub no_verdict: Option<String>,
+    pub kinship: Option<Kinship>,
+    pub worst_tiles: Vec<TileError>,
+    pub warnings: Vec<String>,
+}
+
+/// Compares two pictures.
+///
+/// # Errors
+/// [`Error::Usage`] for a metric that the pictures have no value of; [`Error::Internal`] never.
+pub fn compare(study: &Study, wishes: &Wishes) -> Result<Comparison> {
+    let pair = study.pair;
+    let non_finite = study.survey.non_finite;
+    if !wishes.allow_non_finite {
+        refuse_non_finite(&non_finite)?;
+    }
+    let relation = pair.kinship();
+    let paired = relation.as_ref().is_some_and(|kinship| kinship.paired);
+    let mut warnings = Vec::new();
+    let figures = figures(study, wishes, &mut warnings)?;
+    let gates = judge_gates(study, wishes)?;
+    let (verdict, no_verdict) = match sides(pair, paired) {
+        Ok(_) if study.survey.identical => (None, None),
+        Ok(_) if non_finite != NonFinite::default() => {
+            (None, Some("there are pixels that are not finite".into()))
+        }
+        Ok(sides) => (Some(verdict::judge(&sides, wishes.terms)), None),
+        Err(reason) => (None, Some(reason)),
+    };
+    let conclusion = conclude(study, wishes, &gates, verdict.as_ref());
+    let high = figures
+        .iter()
+        .any(|figure| figure.metric == Metric::HdrFlip);
+    let exposures = high
+        .then(|| study.hdr_flip())
+        .transpose()?
+        .map(|(_, exposures)| *exposures);
+    Ok(Comparison {
+        conclusion,
+        reference: describe(&pair.reference),
+        test: describe(&pair.test),
+        identical: study.survey.identical,
+        non_finite,
+        exposures,
+        figures,
+        gates,
+        verdict,
+        no_verdict,
+        kinship: relation,
+        worst_tiles: study.survey.worst(WORST),
+        warnings,
+    })
+}
+
+fn refuse_non_finite(found: &NonFinite) -> Result<()> {
+    let Some([x, y]) = found.first else {
+        return Ok(());
+    };
+    Err(Error::Usage(format!(
+        "{} pixels of the reference and {} of the test are NaN or infinite, the first at {x},{y}; --allow-non-finite compares the others, and wants these to be alike",
+        found.reference, found.test
+    )))
+}
+
+fn figures(study: &Study, wishes: &Wishes, warnings: &mut Vec<String>) -> Result<Vec<Figure>> {
+    let mut metrics = wishes.metrics.clone();
+    metrics.extend(wishes.gates.iter().map(|gate| gate.metric));
+    let asked = !metrics.is_empty();
+    if !asked {
+        metrics.extend(Metric::LINEAR);
+        if study.pair.len() <= LARGE {
+            metrics.extend(Metric::DISPLAY);
+            metrics.extend(
+                study
+                    .pair
+                    .is_high_dynamic_range()
+                    .then_some(Metric::HdrFlip),
+            );
+        } else {
+            let reason = "ssim, ms-ssim and flip are left out of pictures of over 8 million pixels unless --metric asks for them";
+            warnings.push(reason.into());
+        }
+    }
+    metrics.sort();
+    metrics.dedup();
+    let mut figures = Vec::new();
+    for metric in metrics {
+        match study.figure(metric) {
+            Ok(figure) => figures.push(figure),
+            // Nobody asked for it.
+            Err(Error::Usage(reason)) if !asked => warnings.push(reason),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(figures)
+}
+
+fn judge_gates(study: &Study, wishes: &Wishes) -> Result<Vec<Judgement>> {
+    let judge = |gate: &Gate| {
+        let value = study.figure(gate.metric)?.value;
+        gate.judge(value, || study.pixel_errors(gate.metric))
+    };
+    wishes.gates.iter().map(judge).collect()
+}
+
+/// The pictures' moments, or why they have none.
+pub fn sides(pair: &Pair, paired: bool) -> std::result::Result<Sides<'_>, String> {
+    let reference = side(&pair.reference, "the reference")?;
+    let test = side(&pair.test, "the test")?;
+    Ok(Sides::new(reference, test, pair.region, paired))
+}
+
+fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, String> {
+    let (Pixels::Linear(mean), Some(Noise { variance, samples })) = (&image.pixels, &image.noise)
+    else {
+        return Err(format!("{name} carries no variance and count"));
+    };
+    if !samples.iter().all(|n| *n >= 2.0) {
+        return Err(format!(
+            "{name} has pixels with fewer than 2 samples, which have no variance"
+        ));
+    }
+    if !variance
+        .iter()
+        .flatten()
+        .all(|v| v.is_finite() && *v >= 0.0)
+    {
+        return Err(format!(
+            "{name} has variances that are not finite numbers from 0 up"
+        ));
+    }
+    Ok(Side {
+        mean,
+        variance,
+        samples,
+    })
+}
+
+/// Gates decide where there are any, the verdict where there is one, and else equality does.
+fn conclude(
+    study: &Study,
+    wishes: &Wishes,
+    gates: &[Judgement],
+    verdict: Option<&Verdict>,
+) -> Outcome {
+    if study.survey.non_finite.apart > 0 || gates.iter().any(|gate| !gate.passes) {
+        return Outcome::Different;
+    }
+    let by_gates = !gates.is_empty();
+    match verdict {
+        Some(verdict) if !by_gates || wishes.verdict_counts => verdict.outcome,
+        _ if by_gates || study.survey.identical => Outcome::Same,
+        _ => Outcome::Different,
+    }
+}
+
+fn describe(image: &Raster) -> Described {
+    let least = |noise: &Noise| noise.samples.iter().copied().fold(f32::INFINITY, f32::min) as u64;
+    let of_record = image.record.as_ref().map(|record| record.samples);
+    Described {
+        format: image.format.clone(),
+        width: image.width,
+        height: image.height,
+        left_aside: image.left_aside.clone(),
+        samples: image.noise.as_ref().map(least).or(of_record),
+        device: image
+            .record
+            .as_ref()
+            .map(|record| record.device.name.clone()),
+        seed: image.record.as_ref().map(|record| record.seed),
+    }
+}

@@ -1,0 +1,66 @@
+//! What the samples support, and how many would support more.
+
+use super::Terms;
+use super::estimate::Estimate;
+use super::moments::{Side, Sides};
+use super::normal::quantile;
+use serde::Serialize;
+
+/// Where the means are equal, the chance that so many samples show it.
+const POWER: f64 = 0.95;
+
+/// How many samples a pixel would do.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Needed {
+    /// In the reference, if both pictures get more.
+    pub reference: u64,
+    /// In the test, if both get more.
+    pub test: u64,
+    /// In the test if it alone gets more; absent where that cannot be enough.
+    pub test_alone: Option<u64>,
+}
+
+/// The smallest relative margin that two one-sided tests at `alpha` exclude in every channel.
+/// Channels that are black in both pictures have none.
+pub fn supported_margin(pooled: &[Estimate; 3], alpha: f64) -> f64 {
+    let z = quantile(1.0 - alpha);
+    let margin = |mean: &Estimate| match mean.difference.abs() + z * mean.error {
+        0.0 => 0.0,
+        widest => widest / mean.level().max(f64::MIN_POSITIVE),
+    };
+    pooled.iter().map(margin).fold(0.0, f64::max)
+}
+
+/// How many samples show the margin with probability [`POWER`] where the means are equal.
+pub fn needed(sides: &Sides, pooled: &[Estimate; 3], terms: Terms) -> Needed {
+    let quantiles = quantile(1.0 - terms.alpha) + quantile(POWER);
+    let mut factor: f64 = 1.0;
+    let mut alone = Some(1.0_f64);
+    for (channel, mean) in pooled.iter().enumerate() {
+        let allowed = (terms.margin * mean.level() / quantiles).powi(2);
+        if mean.error == 0.0 || allowed == 0.0 {
+            continue;
+        }
+        factor = factor.max(mean.error.powi(2) / allowed);
+        let [reference, test] = [sides.reference, sides.test].map(|side| of_mean(side, channel));
+        let more = (!sides.paired && allowed > reference).then(|| test / (allowed - reference));
+        alone = alone.zip(more).map(|(most, more)| most.max(more));
+    }
+    let least = |side: Side| side.samples.iter().copied().fold(f32::INFINITY, f32::min);
+    let times = |side: Side, factor: f64| (f64::from(least(side)) * factor).ceil() as u64;
+    Needed {
+        reference: times(sides.reference, factor),
+        test: times(sides.test, factor),
+        test_alone: alone.map(|factor| times(sides.test, factor)),
+    }
+}
+
+/// Variance of the mean of a picture.
+fn of_mean(side: Side, channel: usize) -> f64 {
+    let pixels = side.mean.len() as f64;
+    let variances = side.variance.iter().zip(side.samples);
+    let sum: f64 = variances
+        .map(|(variance, n)| f64::from(variance[channel]) / f64::from(*n))
+        .sum();
+    sum / (pixels * pixels)
+}
