@@ -243,7 +243,7 @@ mod tests {
             passing
         };
         assert_eq!(next(gate(0.01, None), 0.123_456), 0.124);
-        assert_eq!(next(gate(0.01, Some(Allowed::Pixels(100))), 0.0), 0.9);
+        assert_eq!(next(gate(0.01, Some(Allowed::Pixels(100))), 0.0), 0.899);
         let least = Gate {
             metric: Metric::Psnr,
             ..gate(30.0, None)
