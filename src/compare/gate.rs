@@ -141,7 +141,7 @@ fn outward(value: f64, rises: bool) -> f64 {
     } else {
         (value / unit).ceil()
     };
-    // By its decimal text, for three times 0.1 is not 0.3.
+    // By its decimal text as well.
     format!("{:.3e}", digits * unit).parse().unwrap_or(value)
 }
 
@@ -168,7 +168,8 @@ fn curve_of(errors: &[f32]) -> Vec<Step> {
     let mut decade = smallest.log10().floor() as i32;
     'decades: loop {
         for digit in [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0] {
-            let limit = digit * 10f64.powi(decade);
+            // By its decimal text, for three times 0.1 is not 0.3.
+            let limit = format!("{digit}e{decade}").parse().unwrap_or(f64::MAX);
             if limit < smallest {
                 continue;
             }

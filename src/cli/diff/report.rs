@@ -208,7 +208,7 @@ fn conclude(text: &mut String, verdict: &Verdict, decides: bool) {
     };
     let _ = writeln!(
         text,
-        "verdict{aside}: {outcome} (chance of a false alarm {alpha:e}{how})"
+        "verdict{aside}: {outcome} (chance of a false alarm {alpha}{how})"
     );
     match verdict.outcome {
         Outcome::Same => agreement(text, verdict),
@@ -237,8 +237,14 @@ fn agreement(text: &mut String, verdict: &Verdict) {
     }
 }
 
+/// Two digits, more where the number has them before its point.
 fn percent(share: f64) -> String {
-    format!("{} %", short(100.0 * share))
+    let value = 100.0 * share;
+    if !value.is_finite() || value == 0.0 {
+        return format!("{value} %");
+    }
+    let unit = 10f64.powi((1 - value.abs().log10().floor() as i32).max(0));
+    format!("{} %", (value * unit).round() / unit)
 }
 
 /// Difference with half the width of the interval that holds the truth with probability 1 - alpha;
