@@ -9,7 +9,7 @@
 use crate::compare::verdict::quantile;
 use crate::compare::{Metric, Pair, Study, Viewing};
 use crate::device::Device;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::film::{Pixels, Raster, RasterFile};
 use crate::render::{self, Task};
 use crate::scene::Scene;
@@ -35,8 +35,11 @@ pub struct Plan<'a> {
 #[derive(Clone, Debug, Serialize)]
 pub struct Proposal {
     pub metric: Metric,
-    /// The largest value that passes, or the least where larger is better.
-    pub limit: f64,
+    /// The largest value that passes, or the least where larger is better; absent where so few seeds
+    /// say so little that it would limit nothing.
+    pub limit: Option<f64>,
+    /// Colour space and settings, with which the limit is to be used.
+    pub settings: String,
     /// Of the comparisons that were made: the middle and the worst value.
     pub median: f64,
     pub worst: f64,
@@ -58,7 +61,7 @@ pub struct Calibration {
 /// Renders and compares; `say` is told of each picture.
 ///
 /// # Errors
-/// Those of rendering and reading; [`crate::Error::Usage`] for a metric that these pictures do not have.
+/// Those of rendering and reading; [`Error::Usage`] for a metric that these pictures do not have.
 pub fn calibrate(
     plan: &Plan,
     devices: Vec<Box<dyn Device>>,
@@ -66,7 +69,7 @@ pub fn calibrate(
 ) -> Result<Calibration> {
     let reference = plan
         .reference
-        .map(|path| RasterFile::open(path)?.read())
+        .map(|path| fitting(path, plan.scene))
         .transpose()?;
     let names = devices
         .iter()
@@ -90,16 +93,33 @@ pub fn calibrate(
             )?);
         }
     }
-    let values = compare_all(plan, &images, reference)?;
-    let proposals = plan.metrics.iter().zip(values);
+    let found = compare_all(plan, &images, reference)?;
+    let proposals = plan.metrics.iter().zip(found);
     Ok(Calibration {
         devices: names,
         seeds: plan.seeds,
         samples: plan.scene.settings.render.samples,
         proposals: proposals
-            .map(|(metric, values)| propose(*metric, values, plan.false_alarms))
+            .map(|(metric, found)| propose(*metric, found, plan.false_alarms))
             .collect(),
     })
+}
+
+/// Reads the reference, once it is known to have the size of the scene's pictures.
+fn fitting(path: &Path, scene: &Scene) -> Result<Raster> {
+    let file = RasterFile::open(path)?;
+    let (width, height) = (scene.settings.image.width, scene.settings.image.height);
+    if (file.width(), file.height()) != (width, height) {
+        return Err(Error::Data {
+            path: path.into(),
+            reason: format!(
+                "{} x {} pixels, but the scene's pictures have {width} x {height}",
+                file.width(),
+                file.height()
+            ),
+        });
+    }
+    file.read()
 }
 
 /// Renders one picture, in the form that the reference has.
@@ -122,10 +142,19 @@ fn image(
     })
 }
 
-/// For each metric its values: each picture with the reference; or without one in pairs, a picture from the
-/// first half of all with one from the second, so that devices meet.
-fn compare_all(plan: &Plan, images: &[Raster], reference: Option<Raster>) -> Result<Vec<Vec<f64>>> {
-    let mut values = vec![Vec::new(); plan.metrics.len()];
+/// A metric's values, and how they were found.
+#[derive(Clone, Debug, Default)]
+struct Found {
+    values: Vec<f64>,
+    settings: String,
+}
+
+/// For each metric its values: each picture with the reference; or without one in pairs, a picture
+/// from the first half of all with one from the second, so that devices meet. The exposures of the
+/// first pair are those of all.
+fn compare_all(plan: &Plan, images: &[Raster], reference: Option<Raster>) -> Result<Vec<Found>> {
+    let mut all = vec![Found::default(); plan.metrics.len()];
+    let mut viewing = plan.viewing;
     let half = images.len() / 2;
     let count = if reference.is_some() {
         images.len()
@@ -138,12 +167,17 @@ fn compare_all(plan: &Plan, images: &[Raster], reference: Option<Raster>) -> Res
             None => (&images[index], &images[half + index]),
         };
         let pair = Pair::new(first.clone(), second.clone(), None)?;
-        let study = Study::new(&pair, plan.viewing);
-        for (metric, values) in plan.metrics.iter().zip(&mut values) {
-            values.push(study.figure(*metric)?.value);
+        let study = Study::new(&pair, viewing);
+        for (metric, found) in plan.metrics.iter().zip(&mut all) {
+            let figure = study.figure(*metric)?;
+            found.values.push(figure.value);
+            found.settings = figure.settings;
+        }
+        if plan.metrics.contains(&Metric::HdrFlip) {
+            viewing.exposures = Some(study.hdr_flip()?.1);
         }
     }
-    Ok(values)
+    Ok(all)
 }
 
 /// What the metric is near normal in, and back; larger is worse.
@@ -163,8 +197,9 @@ fn metric_scale(metric: Metric, number: f64) -> f64 {
     }
 }
 
-fn propose(metric: Metric, values: Vec<f64>, false_alarms: f64) -> Proposal {
-    let mut numbers: Vec<f64> = values
+fn propose(metric: Metric, found: Found, false_alarms: f64) -> Proposal {
+    let mut numbers: Vec<f64> = found
+        .values
         .iter()
         .map(|value| normal_scale(metric, *value))
         .collect();
@@ -177,9 +212,12 @@ fn propose(metric: Metric, values: Vec<f64>, false_alarms: f64) -> Proposal {
     } else {
         worst
     };
+    let limit = outward(metric, metric_scale(metric, bound));
     Proposal {
         metric,
-        limit: outward(metric, metric_scale(metric, bound)),
+        // Beyond what the metric can reach a limit would limit nothing.
+        limit: Some(limit).filter(|limit| metric.range().contains(limit)),
+        settings: found.settings,
         median: metric_scale(metric, numbers[numbers.len() / 2]),
         worst: metric_scale(metric, worst),
         comparisons: numbers.len(),
@@ -203,10 +241,10 @@ fn upper_bound(numbers: &[f64], chance: f64) -> f64 {
 fn outward(metric: Metric, limit: f64) -> f64 {
     let from_one = matches!(metric, Metric::Ssim | Metric::MsSsim);
     let size = if from_one { 1.0 - limit } else { limit };
-    if size <= 0.0 || !size.is_finite() {
+    if size == 0.0 || !size.is_finite() {
         return limit;
     }
-    let unit = 10f64.powf(size.log10().floor() - 1.0);
+    let unit = 10f64.powf(size.abs().log10().floor() - 1.0);
     let digits = if metric == Metric::Psnr {
         (size / unit).floor()
     } else {
@@ -236,15 +274,22 @@ impl fmt::Display for Calibration {
             } else {
                 "--max"
             };
+            let (metric, count) = (proposal.metric, proposal.comparisons);
+            match proposal.limit {
+                Some(limit) => writeln!(
+                    f,
+                    "--metric {metric} {flag} {limit}   by {count} comparisons, 1 good picture in {:.0} will fail",
+                    1.0 / proposal.false_alarms
+                )?,
+                None => writeln!(
+                    f,
+                    "--metric {metric}: no limit of use; more --seeds would tell more"
+                )?,
+            }
             writeln!(
                 f,
-                "--metric {} {flag} {}   fails 1 good picture in {:.0}; {} comparisons: median {:.4e}, worst {:.4e}",
-                proposal.metric,
-                proposal.limit,
-                1.0 / proposal.false_alarms,
-                proposal.comparisons,
-                proposal.median,
-                proposal.worst
+                "    median {:.4e}, worst {:.4e}; {}",
+                proposal.median, proposal.worst, proposal.settings
             )?;
         }
         Ok(())

@@ -4,7 +4,7 @@
 
 mod support;
 
-use lampray::compare::verdict::{Outcome, Side, Sides, Terms, Verdict, judge};
+use lampray::compare::verdict::{Outcome, Relation, Side, Sides, Terms, Verdict, judge};
 use lampray::film::{Film, Picture, read_exr};
 use lampray::pack::Rect;
 use lampray::scene::{Assignment, Scene};
@@ -65,7 +65,7 @@ fn compare(reference: &Picture, film: &Film) -> Verdict {
         x1: reference.width,
         y1: reference.height,
     };
-    judge(&Sides::new(stored, test, whole, false), TERMS)
+    judge(&Sides::new(stored, test, whole, Relation::default()), TERMS)
 }
 
 fn outcome(bench: Bench, reference: &Picture, name: &str, sets: &[&str]) -> Verdict {

@@ -7,7 +7,7 @@ use super::pair::Pair;
 use super::records::Kinship;
 use super::study::{Study, Viewing};
 use super::survey::{NonFinite, TileError};
-use super::verdict::{self, Outcome, Side, Sides, Terms, Verdict};
+use super::verdict::{self, Outcome, Relation, Side, Sides, Terms, Verdict};
 use crate::error::{Error, Result};
 use crate::film::{Noise, Pixels, Raster};
 use serde::Serialize;
@@ -59,6 +59,8 @@ pub struct Comparison {
     pub exposures: Option<Exposures>,
     pub gates: Vec<Judgement>,
     pub verdict: Option<Verdict>,
+    /// Whether the verdict counts; where there are limits, they decide alone unless it is asked for too.
+    pub verdict_decides: bool,
     /// Why there is no verdict, where there is none.
     pub no_verdict: Option<String>,
     pub kinship: Option<Kinship>,
@@ -77,19 +79,25 @@ pub fn compare(study: &Study, wishes: &Wishes) -> Result<Comparison> {
         refuse_non_finite(&non_finite)?;
     }
     let relation = pair.kinship();
-    let paired = relation.as_ref().is_some_and(|kinship| kinship.paired);
+    let made = relation
+        .as_ref()
+        .map_or_else(Relation::default, Kinship::relation);
     let mut warnings = Vec::new();
     let figures = figures(study, wishes, &mut warnings)?;
     let gates = judge_gates(study, wishes)?;
-    let (verdict, no_verdict) = match sides(pair, paired) {
-        Ok(_) if study.survey.identical => (None, None),
-        Ok(_) if non_finite != NonFinite::default() => {
-            (None, Some("there are pixels that are not finite".into()))
-        }
-        Ok(sides) => (Some(verdict::judge(&sides, wishes.terms)), None),
-        Err(reason) => (None, Some(reason)),
+    let judged = match sides(pair, made) {
+        _ if study.survey.identical => Err(NoVerdict::Needless),
+        Ok(_) if non_finite != NonFinite::default() => Err(NoVerdict::NotFinite),
+        Ok(sides) => Ok(verdict::judge(&sides, wishes.terms)),
+        Err(NoVerdict::Broken(reason)) => return Err(Error::Usage(reason)),
+        Err(reason) => Err(reason),
     };
-    let conclusion = conclude(study, wishes, &gates, verdict.as_ref());
+    let verdict_decides = gates.is_empty() || wishes.verdict_counts;
+    let conclusion = conclude(study, verdict_decides, &gates, &judged);
+    let (verdict, no_verdict) = match judged {
+        Ok(verdict) => (Some(verdict), None),
+        Err(reason) => (None, reason.text()),
+    };
     let high = figures
         .iter()
         .any(|figure| figure.metric == Metric::HdrFlip);
@@ -107,6 +115,7 @@ pub fn compare(study: &Study, wishes: &Wishes) -> Result<Comparison> {
         figures,
         gates,
         verdict,
+        verdict_decides,
         no_verdict,
         kinship: relation,
         worst_tiles: study.survey.worst(WORST),
@@ -149,8 +158,8 @@ fn figures(study: &Study, wishes: &Wishes, warnings: &mut Vec<String>) -> Result
     for metric in metrics {
         match study.figure(metric) {
             Ok(figure) => figures.push(figure),
-            // Nobody asked for it.
-            Err(Error::Usage(reason)) if !asked => warnings.push(reason),
+            // Nobody asked for it, and it is not there for pictures so small.
+            Err(Error::Usage(_)) if !asked => {}
             Err(error) => return Err(error),
         }
     }
@@ -165,31 +174,72 @@ fn judge_gates(study: &Study, wishes: &Wishes) -> Result<Vec<Judgement>> {
     wishes.gates.iter().map(judge).collect()
 }
 
-/// The pictures' moments, or why they have none.
-pub fn sides(pair: &Pair, paired: bool) -> std::result::Result<Sides<'_>, String> {
-    let reference = side(&pair.reference, "the reference")?;
-    let test = side(&pair.test, "the test")?;
-    Ok(Sides::new(reference, test, pair.region, paired))
+/// Why two pictures get no verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoVerdict {
+    /// Every pixel is identical.
+    Needless,
+    /// There are pixels that are NaN or infinite.
+    NotFinite,
+    /// A file does not say how noisy it is.
+    NoNoise(String),
+    /// A pixel with fewer than two samples has no variance.
+    TooFew(String),
+    /// What a file says of its noise cannot be.
+    Broken(String),
 }
 
-fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, String> {
+impl NoVerdict {
+    /// For people; none where there is nothing to be said.
+    fn text(self) -> Option<String> {
+        match self {
+            NoVerdict::Needless => None,
+            NoVerdict::NotFinite => Some("there are pixels that are not finite".into()),
+            NoVerdict::NoNoise(text) | NoVerdict::TooFew(text) | NoVerdict::Broken(text) => {
+                Some(text)
+            }
+        }
+    }
+}
+
+/// The pictures' moments, or why they cannot be judged.
+///
+/// # Errors
+/// All of [`NoVerdict`] but the first two.
+pub fn sides(pair: &Pair, relation: Relation) -> std::result::Result<Sides<'_>, NoVerdict> {
+    let reference = side(&pair.reference, "A")?;
+    let test = side(&pair.test, "B")?;
+    Ok(Sides::new(reference, test, pair.region, relation))
+}
+
+/// The largest whole number up to which f64 has all.
+const MOST_SAMPLES: f32 = 9.007_199e15;
+
+fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, NoVerdict> {
     let (Pixels::Linear(mean), Some(Noise { variance, samples })) = (&image.pixels, &image.noise)
     else {
-        return Err(format!("{name} carries no variance and count"));
+        return Err(NoVerdict::NoNoise(format!(
+            "{name} carries no variance and count"
+        )));
     };
-    if !samples.iter().all(|n| *n >= 2.0) {
-        return Err(format!(
-            "{name} has pixels with fewer than 2 samples, which have no variance"
-        ));
+    if !samples.iter().all(|n| (0.0..=MOST_SAMPLES).contains(n)) {
+        return Err(NoVerdict::Broken(format!(
+            "{name} has counts of samples that cannot be"
+        )));
     }
     if !variance
         .iter()
         .flatten()
         .all(|v| v.is_finite() && *v >= 0.0)
     {
-        return Err(format!(
-            "{name} has variances that are not finite numbers from 0 up"
-        ));
+        return Err(NoVerdict::Broken(format!(
+            "{name} has variances that are not numbers from 0 up"
+        )));
+    }
+    if !samples.iter().all(|n| *n >= 2.0) {
+        return Err(NoVerdict::TooFew(format!(
+            "{name} has pixels with fewer than 2 samples, which have no variance"
+        )));
     }
     Ok(Side {
         mean,
@@ -201,17 +251,17 @@ fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, Stri
 /// Gates decide where there are any, the verdict where there is one, and else equality does.
 fn conclude(
     study: &Study,
-    wishes: &Wishes,
+    verdict_decides: bool,
     gates: &[Judgement],
-    verdict: Option<&Verdict>,
+    judged: &std::result::Result<Verdict, NoVerdict>,
 ) -> Outcome {
     if study.survey.non_finite.apart > 0 || gates.iter().any(|gate| !gate.passes) {
         return Outcome::Different;
     }
-    let by_gates = !gates.is_empty();
-    match verdict {
-        Some(verdict) if !by_gates || wishes.verdict_counts => verdict.outcome,
-        _ if by_gates || study.survey.identical => Outcome::Same,
+    match judged {
+        Ok(verdict) if verdict_decides => verdict.outcome,
+        Err(NoVerdict::TooFew(_)) if verdict_decides => Outcome::NotEnoughSamples,
+        _ if !gates.is_empty() || study.survey.identical => Outcome::Same,
         _ => Outcome::Different,
     }
 }

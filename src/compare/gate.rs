@@ -40,6 +40,8 @@ pub struct Judgement {
     /// Pixels beyond the limit, and how many may be; present where pixels were counted.
     pub pixels: Option<[u64; 2]>,
     pub passes: bool,
+    /// For a failed gate: a limit that would have let it pass.
+    pub passing: Option<f64>,
     /// For a failed gate whose metric has a value for each pixel: limits, and the pixels beyond each.
     pub curve: Vec<Step>,
 }
@@ -71,15 +73,26 @@ impl Gate {
             } else {
                 value <= self.limit
             };
-            let curve = if passes { None } else { errors()? };
-            return Ok(self.judgement(value, None, passes, curve.as_deref().map(curve_of)));
+            // Of similarities the pixels' errors count the other way.
+            let curve = if passes || self.metric.rises() {
+                None
+            } else {
+                errors()?
+            };
+            let passing =
+                (!passes && value.is_finite()).then(|| outward(value, self.metric.rises()));
+            let curve = curve.as_deref().map(curve_of);
+            return Ok(self.judgement(value, None, passes, passing, curve));
         };
         let errors = errors()?.unwrap_or_default();
         let failing = beyond(&errors, self.limit);
         let allowed = allowed.count(errors.len());
-        let passes = failing <= allowed;
-        let curve = (!passes).then(|| curve_of(&errors));
-        Ok(self.judgement(value, Some([failing, allowed]), passes, curve))
+        if failing <= allowed {
+            return Ok(self.judgement(value, Some([failing, allowed]), true, None, None));
+        }
+        let passing = beyond_only(&errors, allowed).map(|error| outward(error, false));
+        let curve = Some(curve_of(&errors));
+        Ok(self.judgement(value, Some([failing, allowed]), false, passing, curve))
     }
 
     fn judgement(
@@ -87,6 +100,7 @@ impl Gate {
         value: f64,
         pixels: Option<[u64; 2]>,
         passes: bool,
+        passing: Option<f64>,
         curve: Option<Vec<Step>>,
     ) -> Judgement {
         Judgement {
@@ -95,6 +109,7 @@ impl Gate {
             value,
             pixels,
             passes,
+            passing,
             curve: curve.unwrap_or_default(),
         }
     }
@@ -106,7 +121,31 @@ fn beyond(errors: &[f32], limit: f64) -> u64 {
     (errors.len() - errors.iter().filter(within).count()) as u64
 }
 
-/// Limits 1, 2, 5, 10, ... from where half of the pixels fail, at most, to where none does.
+/// The error that no more than `allowed` pixels are beyond; none where too many are NaN.
+fn beyond_only(errors: &[f32], allowed: u64) -> Option<f64> {
+    let mut sorted = errors.to_vec();
+    // NaN comes last.
+    sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let place = sorted.len().checked_sub(1 + allowed as usize)?;
+    Some(f64::from(sorted[place])).filter(|error| error.is_finite())
+}
+
+/// Three digits, rounded to the side that passes.
+fn outward(value: f64, rises: bool) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let unit = 10f64.powf(value.abs().log10().floor() - 2.0);
+    let digits = if rises {
+        (value / unit).floor()
+    } else {
+        (value / unit).ceil()
+    };
+    // By its decimal text as well.
+    format!("{:.3e}", digits * unit).parse().unwrap_or(value)
+}
+
+/// Limits in steps of about a quarter from where half of the pixels fail, at most, to where none does.
 fn curve_of(errors: &[f32]) -> Vec<Step> {
     let mut sorted: Vec<f64> = errors.iter().map(|error| f64::from(*error)).collect();
     sorted.sort_by(f64::total_cmp);
@@ -128,8 +167,9 @@ fn curve_of(errors: &[f32]) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut decade = smallest.log10().floor() as i32;
     'decades: loop {
-        for digit in [1.0, 2.0, 5.0] {
-            let limit = digit * 10f64.powi(decade);
+        for digit in [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0] {
+            // By its decimal text, for three times 0.1 is not 0.3.
+            let limit = format!("{digit}e{decade}").parse().unwrap_or(f64::MAX);
             if limit < smallest {
                 continue;
             }
@@ -191,12 +231,35 @@ mod tests {
     }
 
     #[test]
+    fn a_failed_gate_names_a_limit_that_passes() {
+        let errors: Vec<f32> = (0..1000).map(|i| i as f32 / 1000.0).collect();
+        let failed = |gate: Gate, value| gate.judge(value, || Ok(Some(errors.clone()))).unwrap();
+        let next = |gate: Gate, value: f64| {
+            let passing = failed(gate, value).passing.expect("a limit");
+            let again = Gate {
+                limit: passing,
+                ..gate
+            };
+            assert!(failed(again, value).passes, "{passing}");
+            passing
+        };
+        assert_eq!(next(gate(0.01, None), 0.123_456), 0.124);
+        assert_eq!(next(gate(0.01, Some(Allowed::Pixels(100))), 0.0), 0.899);
+        let least = Gate {
+            metric: Metric::Psnr,
+            ..gate(30.0, None)
+        };
+        assert_eq!(next(least, 23.456), 23.4);
+        assert_eq!(next(least, -3.21), -3.21);
+    }
+
+    #[test]
     fn the_curve_ends_where_nothing_fails() {
         let errors: Vec<f32> = (0..1000).map(|i| i as f32 / 1000.0).collect();
         let judgement = gate(0.1, None).judge(0.5, || Ok(Some(errors))).unwrap();
         let curve = judgement.curve;
-        assert_eq!(curve.len(), 2);
+        assert_eq!(curve.len(), 4);
         assert_eq!((curve[0].limit, curve[0].failing), (0.5, 499));
-        assert_eq!((curve[1].limit, curve[1].failing), (1.0, 0));
+        assert_eq!((curve[3].limit, curve[3].failing), (1.0, 0));
     }
 }

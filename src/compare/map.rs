@@ -68,15 +68,15 @@ pub fn chart(study: &Study, kind: MapKind, z: Option<Vec<f32>>) -> Result<Chart>
                 "relative error, linear light",
             )
         }
-        MapKind::Flip => (
-            study.flip()?.values.clone(),
-            [0.0, 1.0],
-            Palette::Sequential,
-            "FLIP",
-        ),
+        MapKind::Flip => {
+            let values = study.flip()?.values.clone();
+            let end = round_end(&values);
+            (values, [0.0, end], Palette::Sequential, "FLIP")
+        }
         MapKind::HdrFlip => {
             let values = study.hdr_flip()?.0.values.clone();
-            (values, [0.0, 1.0], Palette::Sequential, "HDR-FLIP")
+            let end = round_end(&values);
+            (values, [0.0, end], Palette::Sequential, "HDR-FLIP")
         }
         MapKind::Z => {
             let none = || {
@@ -245,7 +245,14 @@ fn draw_scale(image: &mut RgbImage, chart: &Chart, top: u32) {
             .clamp(left, right.saturating_sub(wide).max(left));
         draw_text(image, &text, start, top + BAR + EDGE / 2);
     }
-    let title = chart.title;
+    let beyond = |value: &&f32| f64::from(**value) < low || f64::from(**value) > high;
+    let share = chart.values.iter().filter(beyond).count() as f64 / chart.values.len() as f64;
+    let title = if share > 0.0 {
+        format!("{}; {:.2} % beyond", chart.title, 100.0 * share)
+    } else {
+        chart.title.to_string()
+    };
+    let title = title.as_str();
     let start = image.width().saturating_sub(text_width(title)) / 2;
     draw_text(image, title, start, top + BAR + EDGE / 2 + LINE);
 }

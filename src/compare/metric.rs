@@ -3,6 +3,7 @@
 use super::survey::{NEAR_BLACK, Sums};
 use serde::Serialize;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, clap::ValueEnum)]
 pub enum Metric {
@@ -79,6 +80,16 @@ impl Metric {
         matches!(self, Metric::Psnr | Metric::Ssim | Metric::MsSsim)
     }
 
+    /// The values that it can have.
+    pub fn range(self) -> RangeInclusive<f64> {
+        match self {
+            Metric::Psnr => f64::NEG_INFINITY..=f64::INFINITY,
+            Metric::Ssim => -1.0..=1.0,
+            Metric::MsSsim | Metric::Flip | Metric::HdrFlip => 0.0..=1.0,
+            _ => 0.0..=f64::INFINITY,
+        }
+    }
+
     /// Whether each pixel has a value of its own, which `--allow-pixels` and maps need.
     pub fn has_pixels(self) -> bool {
         !matches!(self, Metric::Psnr | Metric::MsSsim)
@@ -93,7 +104,8 @@ impl Metric {
             Metric::Rmse => Some(mean(sums.squared).sqrt()),
             Metric::RelMse => Some(mean(sums.relative)),
             Metric::Mrse => Some(mean(sums.mean_relative)),
-            Metric::Psnr => Some(-10.0 * mean(sums.squared).log10()),
+            // Added to zero, for there is a zero below zero.
+            Metric::Psnr => Some(0.0 - 10.0 * mean(sums.squared).log10()),
             _ => None,
         }
     }

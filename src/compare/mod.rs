@@ -21,7 +21,7 @@ mod study;
 mod survey;
 pub mod verdict;
 
-pub use comparison::{Comparison, Described, Wishes, compare, sides};
+pub use comparison::{Comparison, Described, NoVerdict, Wishes, compare, sides};
 pub use gate::{Allowed, Gate, Judgement, Step};
 pub use lines::{Lines, Map};
 pub use map::{Chart, MapKind, chart, prepare as prepare_map, write as write_map};

@@ -1,11 +1,15 @@
 //! What the records of two pictures say of how they are related.
 
+use super::verdict::Relation;
 use crate::film::Record;
 use serde::Serialize;
 use serde_json::Value;
 
 /// Knobs that say which samples were taken, not of what.
 const SAMPLING: [&str; 2] = ["render.samples", "render.seed"];
+
+/// Knobs that change how the image is estimated, by the beginnings of their names.
+const ESTIMATOR: [&str; 4] = ["light.", "scatter.", "interruption.", "image.filter"];
 
 /// A knob that the two pictures have with two values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -24,22 +28,36 @@ pub struct Kinship {
     pub others: Vec<String>,
     /// Whether they were made of the same random numbers: same seed, and samples that both have.
     pub paired: bool,
+    /// Whether they come from the same estimator: no knob of sampling differs.
+    pub same_estimator: bool,
     /// Whether more differs than one knob under study.
     pub mixed: bool,
+}
+
+impl Kinship {
+    /// What the verdict has to know of it.
+    pub fn relation(&self) -> Relation {
+        Relation {
+            paired: self.paired,
+            same_estimator: self.same_estimator,
+        }
+    }
 }
 
 /// Compares two records.
 pub fn kinship(reference: &Record, test: &Record) -> Kinship {
     let knobs = differing_knobs(reference, test);
     let others = other_differences(reference, test);
-    // Another device is not another picture; a scene that differs may be where the knob was changed.
+    // Another device is not another picture. Of another text nobody knows whether it is more than the
+    // knob that was changed in it.
     let confounds = [
         knobs.len() > 1,
-        reference.scene_hash != test.scene_hash && !knobs.is_empty(),
         reference.shader_hash != test.shader_hash,
         reference.crop != test.crop,
     ];
+    let samples = |knob: &KnobDifference| ESTIMATOR.iter().any(|part| knob.knob.starts_with(part));
     Kinship {
+        same_estimator: !knobs.iter().any(samples),
         paired: reference.seed == test.seed && overlap(reference, test),
         mixed: confounds.contains(&true),
         knobs,
@@ -74,15 +92,16 @@ fn other_differences(reference: &Record, test: &Record) -> Vec<String> {
             .map_or("none".into(), |crop| format!("{crop:?}"))
     };
     let fields = [
-        ("scene text", a.scene_hash.clone(), b.scene_hash.clone()),
         ("shaders", a.shader_hash.clone(), b.shader_hash.clone()),
         ("lampray", a.version.clone(), b.version.clone()),
         ("device", device(a), device(b)),
         ("crop", crop(a), crop(b)),
     ];
     let differ = fields.into_iter().filter(|(_, a, b)| a != b);
-    differ
-        .map(|(what, a, b)| format!("{what}: {a}, {b}"))
+    let text = (a.scene_hash != b.scene_hash)
+        .then(|| "scene text: differs; spheres and boxes are not compared".to_string());
+    text.into_iter()
+        .chain(differ.map(|(what, a, b)| format!("{what}: {a} -> {b}")))
         .collect()
 }
 

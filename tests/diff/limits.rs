@@ -58,6 +58,11 @@ fn limits_pass_and_fail() {
         ),
         (&["--metric", "hdr-flip", "--max", "1"], 2),
         (&["--metric", "nonsense"], 2),
+        (&["--metric", "mse", "--max", "-1"], 2),
+        (&["--metric", "mse", "--max", "inf"], 2),
+        (&["--metric", "ssim", "--min", "30"], 2),
+        (&["--spp", "4"], 2),
+        (&["--device", "cpu"], 2),
         (&["--alpha", "0"], 2),
         (&["--ppd", "0"], 2),
         (&["--exposures", "1,0,3"], 2),
@@ -77,6 +82,35 @@ fn limits_pass_and_fail() {
         failed["gates"][0]["curve"]
             .as_array()
             .is_some_and(|curve| curve.len() > 3)
+    );
+    // A failed limit names one that passes.
+    let named = |limits: &[&str]| {
+        let (code, failed) = json(at, &[&["a.png", "b.png"], limits].concat());
+        assert_eq!(code, 1, "{limits:?}");
+        failed["gates"][0]["passing"].to_string()
+    };
+    let passing = named(&["--metric", "flip", "--max", "0", "--allow-pixels", "10%"]);
+    let again = [
+        "--metric",
+        "flip",
+        "--max",
+        &passing,
+        "--allow-pixels",
+        "10%",
+    ];
+    assert_eq!(
+        diff(at, &[&["a.png", "b.png"], &again[..]].concat()).0,
+        0,
+        "{passing}"
+    );
+    let passing = named(&["--metric", "ssim", "--min", "1"]);
+    assert_eq!(
+        diff(
+            at,
+            &["a.png", "b.png", "--metric", "ssim", "--min", &passing]
+        )
+        .0,
+        0
     );
     // A PNG beside the EXR of the same render: the rounding to 8 bits, and what is cut off at white.
     assert_eq!(
@@ -126,4 +160,10 @@ fn maps_are_written_whole_or_not_at_all() {
         2
     );
     assert!(!at.join("m.png").exists());
+    // A map never takes a picture's place.
+    let before = std::fs::read(at.join("a.exr")).expect("a picture");
+    for map in ["a.exr", "./b.exr"] {
+        assert_eq!(diff(at, &["a.exr", "b.exr", "--map", map]).0, 2);
+    }
+    assert_eq!(std::fs::read(at.join("a.exr")).expect("a picture"), before);
 }

@@ -115,3 +115,52 @@ fn what_is_not_a_pair_of_pictures_is_trouble() {
     assert_eq!(diff(at, &["a.exr"]).0, 2);
     assert_eq!(diff(at, &[]).0, 2);
 }
+
+/// One sample has no variance: nothing can be said yet, which is not to say that they differ.
+#[test]
+fn one_sample_a_pixel_is_not_enough() {
+    let folder = folder(&[("a.exr", 1, 1, &[]), ("b.exr", 1, 2, &[])]);
+    let (code, unsure) = json(folder.path(), &["a.exr", "b.exr"]);
+    assert_eq!(
+        (code, &unsure["conclusion"]),
+        (3, &"not-enough-samples".into())
+    );
+    assert!(
+        unsure["no_verdict"]
+            .as_str()
+            .is_some_and(|reason| reason.contains("2 samples"))
+    );
+}
+
+/// The default seed is the same for all, so two strategies compared without a thought are paired.
+#[test]
+fn two_strategies_of_one_seed_are_the_same_image() {
+    let hits: &[&str] = &["light.strategy=hit"];
+    let folder = folder(&[("both.exr", 8, 0, &[]), ("hits.exr", 8, 0, hits)]);
+    let (code, paired) = json(folder.path(), &["both.exr", "hits.exr"]);
+    assert_eq!(paired["kinship"]["same_estimator"], false);
+    assert!(code == 0 || code == 3, "{}", paired["verdict"]);
+}
+
+/// Of an edited scene file nobody can say whether more was changed than the knob that shows.
+#[test]
+fn a_changed_scene_file_is_named() {
+    let folder = folder(&[("a.exr", 4, 1, &[])]);
+    let at = folder.path();
+    let text = std::fs::read_to_string(at.join("s.toml")).expect("the scene");
+    std::fs::write(
+        at.join("s.toml"),
+        text.replace("9.0, 9.0, 9.0", "8.0, 8.0, 8.0"),
+    )
+    .expect("a scene");
+    let render = [
+        "render", "s.toml", "-q", "--device", "cpu", "-s", "4", "-o", "b.exr",
+    ];
+    assert!(super::run::lampray(at, &render).status.success());
+    let (_, words, _) = diff(at, &["a.exr", "b.exr"]);
+    assert!(words.contains("knob materials.lamp.emission"), "{words}");
+    assert!(
+        words.contains("scene text: differs") && !words.contains("warning"),
+        "{words}"
+    );
+}

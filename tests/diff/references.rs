@@ -1,6 +1,7 @@
 //! References: blessed when asked, and limits measured.
 
 use super::run::{diff, folder, json};
+use serde_json::Value;
 use std::fs;
 
 #[test]
@@ -25,6 +26,13 @@ fn references_change_only_when_asked_to() {
     assert_eq!(diff(at, &["first.exr", "same.exr"]).0, 2);
     assert_eq!(diff(at, &["first.exr", "same.exr", "--bless"]).0, 0);
     assert_eq!(bytes("first.exr"), bytes("same.exr"));
+    // A name stays true: no EXR becomes a PNG.
+    assert_eq!(diff(at, &["new.png", "same.exr", "--bless"]).0, 2);
+    assert!(!at.join("new.png").exists());
+    assert_eq!(
+        diff(at, &["a.exr", "other.exr", "--bless", "--crop", "0,0,8,8"]).0,
+        2
+    );
     // Never by what is not a picture.
     assert_eq!(diff(at, &["new.exr", "s.toml", "--bless"]).0, 2);
     assert!(!at.join("new.exr").exists());
@@ -68,6 +76,25 @@ fn calibrate_proposes_a_limit_that_good_pictures_keep() {
         (code, &against["proposals"][0]["comparisons"]),
         (0, &12.into())
     );
+    // The size is looked at before anything is rendered.
+    let wide = [&["a.exr"], &calibrate[..], &["--width", "33"]].concat();
+    assert!(diff(at, &wide).2.contains("33 x 32"));
+    // What so few comparisons say of so rare an event is no limit.
+    let rare = [
+        "--calibrate",
+        "s.toml",
+        "--samples",
+        "1",
+        "--metric",
+        "flip",
+        "--device",
+        "cpu",
+        "--seeds",
+        "8",
+        "--false-alarms",
+        "1e-6",
+    ];
+    assert_eq!(json(at, &rare).1["proposals"][0]["limit"], Value::Null);
     assert_eq!(diff(at, &["--calibrate", "none.toml"]).0, 2);
     assert_eq!(diff(at, &["--calibrate", "s.toml", "--seeds", "1"]).0, 2);
 }

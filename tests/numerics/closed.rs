@@ -1,10 +1,12 @@
-//! Closed spaces let no light in: the radiance inside is exactly 0, however bright it is outside.
+//! Closed spaces let no light in, nor out: beyond their walls the radiance is exactly 0, however bright
+//! it is on the other side.
 
 use super::bodies::*;
 use crate::support::bench::{Bench, benches};
 use crate::support::stream::Stream;
 use glam::{DMat3, DVec3};
-use lampray::pack::Packed;
+use lampray::knobs::LightStrategy;
+use lampray::pack::{Packed, Sphere};
 
 const SIDE: u32 = 16;
 const SAMPLES: u32 = 16;
@@ -134,6 +136,58 @@ fn closed_spaces_are_dark() {
             rays += check_dark(bench, &format!("body {number}"), &scene, 1);
         }
         println!("{bench:?}: {rays} rays, none of which gets out");
+    }
+}
+
+/// A lamp in a body of any kind, camera and body in a large white ball under no sky. `share` is the
+/// lamp's radius over that of the largest ball in the body: above 1 it stands out.
+fn lamp_shut_in(number: usize, stream: &mut Stream, share: f64) -> Packed {
+    let mut body = Body::any(number, stream);
+    let (inner, outer) = body.reach();
+    let toward = vector(stream);
+    body.center = 6.0 * outer * toward;
+    let mut scene = body.scene();
+    let ball = Sphere {
+        radius: (20.0 * outer) as f32,
+        ..Sphere::default()
+    };
+    // Before the others, so that the lamp's number is that of its place.
+    scene.spheres.insert(0, ball);
+    scene.strategy.sphere_count += 1;
+    scene.background = [0.0; 3];
+    scene.max_bounces = 8;
+    add_lamp(&mut scene, body.center, share * inner, 1e6);
+    look(&mut scene, toward, 1.0, SIDE);
+    scene
+}
+
+/// Occluders close to the lamp, far from what it would light. Shadow rays are traced, and all are blocked.
+#[test]
+fn lamps_that_are_shut_in_light_nothing() {
+    for bench in benches() {
+        let mut stream = Stream::new(36);
+        let mut rays = 0;
+        for number in 0..BODIES / 2 {
+            let mut scene = lamp_shut_in(number, &mut stream, 0.6);
+            if number % 2 == 1 {
+                scene.strategy.light_strategy = LightStrategy::Sample;
+            }
+            rays += check_dark(bench, &format!("lamp {number}"), &scene, 2);
+        }
+        println!("{bench:?}: {rays} rays, none of which finds a lamp that is shut in");
+    }
+}
+
+#[test]
+fn a_lamp_that_stands_out_is_seen() {
+    for bench in benches() {
+        let mut stream = Stream::new(36);
+        for number in 0..30 {
+            let scene = lamp_shut_in(number, &mut stream, 1.05);
+            let lit = bench.with(|device| trace(device, &scene, SIDE, 2));
+            let any = lit.iter().any(|tally| tally.mean != [0.0; 3]);
+            assert!(any, "{bench:?} {number}");
+        }
     }
 }
 

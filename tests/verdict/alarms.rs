@@ -1,6 +1,6 @@
 //! Pairs with the same expected image: how often the verdict calls them different.
 
-use super::pictures::{Setting, compare, first_seed};
+use super::pictures::{Setting, compare, compare_paired, first_seed};
 use crate::support::chance::{binomial_at_least, fit};
 use lampray::compare::verdict::{Outcome, Terms, Verdict, quantile};
 use lampray::film::Picture;
@@ -67,7 +67,7 @@ fn print_histogram(z: &[f64]) {
 
 /// Two estimators of one image, or one with two numbers of samples; in some of them light comes by
 /// rare bright paths, of which a few samples may meet none.
-const PAIRS: [(&str, Setting, u64, Setting, u64); 8] = [
+const PAIRS: [(&str, Setting, u64, Setting, u64); 9] = [
     ("few samples", ROOM, 4, ROOM, 4),
     ("two samples", ROOM, 2, ROOM, 2),
     ("few against many", ROOM, 8, ROOM, 128),
@@ -76,6 +76,7 @@ const PAIRS: [(&str, Setting, u64, Setting, u64); 8] = [
     ("rare hits against both", RARE_HITS, 4, SMALL_LAMP, 16),
     ("rare hits, few against many", RARE_HITS, 8, RARE_HITS, 128),
     ("mirror and lobes", BALLS, 16, BALLS_BY_AREA, 8),
+    ("many lamps, many against few hits", MANY, 64, MANY_HITS, 4),
 ];
 
 const HITS: Setting = Setting {
@@ -99,6 +100,15 @@ const BALLS_BY_AREA: Setting = Setting {
     sets: &["render.preset=corrected", "light.sampler=uniform-angles"],
 };
 
+const MANY: Setting = Setting {
+    scene: "many-lamps",
+    sets: &["light.strategy=sample"],
+};
+const MANY_HITS: Setting = Setting {
+    scene: "many-lamps",
+    sets: &["light.strategy=hit", "scatter.diffuse=uniform"],
+};
+
 #[test]
 fn neither_rare_light_nor_unequal_counts_alarm() {
     const EACH: u64 = 25;
@@ -118,6 +128,42 @@ fn neither_rare_light_nor_unequal_counts_alarm() {
         all += alarms;
     }
     assert!(!too_often(all, EACH * PAIRS.len() as u64), "{all} in all");
+}
+
+/// Estimators of one image that draw the same random numbers: what they share is little or much.
+const RELATED: [(&str, Setting, u64, Setting, u64); 7] = [
+    ("hits against both, 4", HITS, 4, ROOM, 4),
+    ("hits against both, 16", HITS, 16, ROOM, 16),
+    ("rare hits against both", RARE_HITS, 8, SMALL_LAMP, 8),
+    ("many lamps", MANY_HITS, 8, MANY, 8),
+    ("another rule", BY_ALBEDO, 16, ROOM, 16),
+    ("another sampler", BALLS, 16, BALLS_BY_AREA, 16),
+    ("the first samples of many", ROOM, 4, ROOM, 64),
+];
+const BY_ALBEDO: Setting = Setting {
+    scene: "cornell",
+    sets: &["interruption.rule=albedo", "interruption.start=0"],
+};
+
+#[test]
+fn paired_pictures_of_one_image_do_not_alarm() {
+    const EACH: u64 = 20;
+    let mut seed = first_seed(70_000);
+    let mut all = 0;
+    for (name, first, samples, second, others) in RELATED {
+        let mut alarms = 0;
+        for _ in 0..EACH {
+            let reference = first.render(48, samples, seed);
+            let test = second.render(48, others, seed);
+            seed += 1;
+            let verdict = compare_paired(&reference, &test, Terms::default());
+            alarms += u64::from(verdict.outcome == Outcome::Different);
+        }
+        println!("paired, {name}: {alarms} of {EACH} called different");
+        assert!(!too_often(alarms, EACH), "{name}: {alarms} of {EACH}");
+        all += alarms;
+    }
+    assert!(!too_often(all, EACH * RELATED.len() as u64), "{all} in all");
 }
 
 /// Files that state too little noise: the count of alarms must show it.

@@ -1,6 +1,7 @@
 //! Pictures to be compared, small and on the twin.
 
-use lampray::compare::verdict::{Side, Sides, Terms, Verdict, judge};
+use lampray::compare::kinship;
+use lampray::compare::verdict::{Relation, Side, Sides, Terms, Verdict, judge};
 use lampray::cpu::Cpu;
 use lampray::device::Device;
 use lampray::film::Picture;
@@ -70,16 +71,23 @@ fn whole(picture: &Picture) -> Rect {
 
 /// The verdict on two pictures that share no samples.
 pub fn compare(reference: &Picture, test: &Picture, terms: Terms) -> Verdict {
-    judge(
-        &Sides::new(side(reference), side(test), whole(reference), false),
-        terms,
-    )
+    judge_as(reference, test, false, terms)
 }
 
 /// The verdict on two pictures of the same random numbers.
 pub fn compare_paired(reference: &Picture, test: &Picture, terms: Terms) -> Verdict {
+    judge_as(reference, test, true, terms)
+}
+
+/// As `diff` does it with the records of both.
+fn judge_as(reference: &Picture, test: &Picture, paired: bool, terms: Terms) -> Verdict {
+    let relation = Relation {
+        paired,
+        ..kinship(&reference.record, &test.record).relation()
+    };
+    let (first, second) = (side(reference), side(test));
     judge(
-        &Sides::new(side(reference), side(test), whole(reference), true),
+        &Sides::new(first, second, whole(reference), relation),
         terms,
     )
 }

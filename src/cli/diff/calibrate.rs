@@ -9,9 +9,9 @@ use std::path::Path;
 impl Command {
     /// Renders, compares and proposes; returns the exit code.
     pub(super) fn calibrate(&self, scene: &Path, wishes: &Wishes, output: Output) -> Result<u8> {
-        if !(self.false_alarms > 0.0 && self.false_alarms < 0.5) {
+        if !(1e-6..=0.5).contains(&self.false_alarms) {
             return Err(Error::Usage(format!(
-                "--false-alarms {}: must be above 0 and below 0.5",
+                "--false-alarms {:e}: must be from 1e-6 to 0.5",
                 self.false_alarms
             )));
         }

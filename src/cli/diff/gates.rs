@@ -142,8 +142,8 @@ fn set_limit(open: Option<&mut Open>, flag: &str, limit: f64, least: bool) -> Re
     if open.limit.is_some() {
         return usage(format!("{flag} {limit}: {metric} has a limit already"));
     }
-    if limit.is_nan() {
-        return usage(format!("{flag} {limit}: a limit is a number"));
+    if !limit.is_finite() {
+        return usage(format!("{flag} {limit}: a limit is a finite number"));
     }
     if metric.rises() != least {
         let (right, way) = if least {
@@ -154,6 +154,10 @@ fn set_limit(open: Option<&mut Open>, flag: &str, limit: f64, least: bool) -> Re
         return usage(format!(
             "{flag} {limit}: {way} is better for {metric}, so its limit is a {right}"
         ));
+    }
+    if !metric.range().contains(&limit) {
+        let (low, high) = (metric.range().start().to_string(), *metric.range().end());
+        return usage(format!("{flag} {limit}: {metric} is from {low} to {high}"));
     }
     open.limit = Some(limit);
     Ok(())

@@ -6,13 +6,13 @@ mod report;
 use super::options::{DeviceOptions, KnobOptions};
 use super::{Output, note, print};
 use crate::compare::flip;
-use crate::compare::verdict::{self, Outcome, Terms};
+use crate::compare::verdict::{self, Outcome, Relation, Terms};
 use crate::compare::{
-    Comparison, MapKind, Pair, Study, Viewing, Wishes, chart, compare, prepare_map, sides,
+    Comparison, Kinship, MapKind, Pair, Study, Viewing, Wishes, chart, compare, prepare_map, sides,
     write_map,
 };
 use crate::error::{Error, Result};
-use crate::film::RasterFile;
+use crate::film::{Format, RasterFile};
 use crate::place::Place;
 use clap::{Args, ValueEnum};
 use gates::Gates;
@@ -27,8 +27,12 @@ use std::path::{Path, PathBuf};
 /// A is the reference, B the test; PNG or EXR, from lampray or any other program. Where both carry
 /// their noise (EXR with variance.R, variance.G, variance.B and samples, as lampray writes it), the
 /// verdict says whether their expected images are the same, different, or cannot be told apart yet,
-/// with a stated chance of a false alarm. Limits decide where there are any, else the verdict, else equality.
-/// Exit code: 0 same, 1 different or over a limit, 2 trouble, 3 not enough samples to tell.
+/// with a stated chance of a false alarm. "Same" means that the samples exclude a difference of the
+/// picture's mean beyond --margin; of its parts it tells what they exclude. Pictures of one seed are
+/// compared as paired. Limits decide where there are any, else the verdict, else equality.
+///
+/// Exit code: 0 same, 1 different or over a limit, 2 trouble with the pictures, 3 not enough samples
+/// to tell.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lampray diff reference.exr new.exr                                  the verdict, and all metrics
@@ -110,15 +114,16 @@ pub(crate) struct Command {
     #[arg(long, value_name = "KIND", requires = "map", help_heading = "Map")]
     map_kind: Option<MapKind>,
     /// Replace A by B: if B is not the same (or A is not there), or in any case
-    #[arg(long, value_name = "WHEN", num_args = 0..=1, default_missing_value = "different", require_equals = true, help_heading = "References")]
+    #[arg(long, value_name = "WHEN", num_args = 0..=1, default_missing_value = "different", require_equals = true,
+        conflicts_with = "crop", help_heading = "References")]
     bless: Option<Bless>,
     /// Render this scene several times and propose a limit for each --metric; with A, against it
-    #[arg(long, value_name = "SCENE", conflicts_with_all = ["map", "bless"], help_heading = "References")]
+    #[arg(long, value_name = "SCENE", conflicts_with_all = ["map", "bless", "crop"], help_heading = "References")]
     calibrate: Option<PathBuf>,
     /// Calibrate: how many seeds on each device
-    #[arg(long, value_name = "N", default_value_t = 12, requires = "calibrate", value_parser = clap::value_parser!(u32).range(4..=10_000), help_heading = "References")]
+    #[arg(long, value_name = "N", default_value_t = 12, requires = "calibrate", value_parser = clap::value_parser!(u32).range(8..=10_000), help_heading = "References")]
     seeds: u32,
-    /// Calibrate: chance that the proposed limit fails a picture that is as it should be
+    /// Calibrate: chance that the proposed limit fails a picture that is as it should be, 1e-6 to 0.5
     #[arg(
         long,
         value_name = "P",
@@ -158,18 +163,21 @@ impl Command {
         let (Some(reference), Some(test)) = (&self.reference, &self.test) else {
             return Err(Error::Usage("diff needs two pictures".into()));
         };
+        self.check_calibration_only()?;
         if self.bless.is_some() && !reference.exists() {
+            self.check_outputs(reference, test)?;
             // A reference that cannot be read would fail everybody from now on.
             RasterFile::open(test)?.read()?;
             bless(reference, test)?;
-            remark(
-                &format!(
-                    "{} was not there: it is now a copy of {}",
-                    reference.display(),
-                    test.display()
-                ),
-                output,
+            let now = format!(
+                "{} is now a copy of {}",
+                reference.display(),
+                test.display()
             );
+            remark(&now, output);
+            if output.json {
+                print_json(&serde_json::json!({ "a": reference, "b": test, "blessed": true }))?;
+            }
             return Ok(SAME);
         }
         self.compare(reference, test, &wishes, output)
@@ -182,6 +190,7 @@ impl Command {
         wishes: &Wishes,
         output: Output,
     ) -> Result<u8> {
+        self.check_outputs(reference, test)?;
         // Outputs that cannot be written are refused before the work. Nothing is held in their places
         // meanwhile, so that a signal leaves nothing behind.
         self.map.as_deref().map(prepare_map).transpose()?;
@@ -221,19 +230,54 @@ impl Command {
         }
     }
 
+    /// Options of rendering say nothing to pictures that are there.
+    fn check_calibration_only(&self) -> Result<()> {
+        if self.knobs.assignments()?.is_empty() && self.device.any() {
+            return Ok(());
+        }
+        Err(Error::Usage(
+            "knobs and devices are for --calibrate, which renders".into(),
+        ))
+    }
+
+    /// Refuses outputs that would destroy an input, or make it something else than its name says.
+    fn check_outputs(&self, reference: &Path, test: &Path) -> Result<()> {
+        let same = |a: &Path, b: &Path| {
+            fs::canonicalize(a).is_ok_and(|a| fs::canonicalize(b).is_ok_and(|b| a == b))
+        };
+        if let Some(map) = self
+            .map
+            .as_deref()
+            .filter(|map| same(map, reference) || same(map, test))
+        {
+            return Err(Error::Usage(format!(
+                "--map {}: that is one of the pictures",
+                map.display()
+            )));
+        }
+        if self.bless.is_some() && Format::of(reference) != Format::of(test) {
+            return Err(Error::Usage(format!(
+                "--bless would make {} a copy of {}, which is of another format",
+                reference.display(),
+                test.display()
+            )));
+        }
+        Ok(())
+    }
+
     fn wishes(&self) -> Result<Wishes> {
-        let share = |flag: &str, value: f64, most: f64| {
-            if value > 0.0 && value < most {
+        let share = |flag: &str, value: f64, least: f64, most: f64| {
+            if (least..=most).contains(&value) {
                 Ok(value)
             } else {
                 Err(Error::Usage(format!(
-                    "{flag} {value}: must be above 0 and below {most}"
+                    "{flag} {value:e}: must be from {least:e} to {most}"
                 )))
             }
         };
-        if !(self.tolerance >= 0.0 && self.tolerance < 1e6) {
+        if !(self.tolerance >= 0.0 && self.tolerance <= 1e6) {
             return Err(Error::Usage(format!(
-                "--tolerance {}: must be 0 or more",
+                "--tolerance {}: must be from 0 to a million",
                 self.tolerance
             )));
         }
@@ -264,8 +308,8 @@ impl Command {
                     .transpose()?,
             },
             terms: Terms {
-                alpha: share("--alpha", self.alpha, 0.5)?,
-                margin: share("--margin", self.margin, 1e6)?,
+                alpha: share("--alpha", self.alpha, 1e-9, 0.5)?,
+                margin: share("--margin", self.margin, 1e-9, 1000.0)?,
                 tolerance: self.tolerance,
             },
             verdict_counts: self.verdict,
@@ -277,7 +321,10 @@ impl Command {
         let pair = study.pair;
         let related = pair.kinship();
         let paired = related.as_ref().is_some_and(|kinship| kinship.paired);
-        let sides = sides(pair, paired).ok().filter(|_| !paired);
+        let relation = related
+            .as_ref()
+            .map_or_else(Relation::default, Kinship::relation);
+        let sides = sides(pair, relation).ok().filter(|_| !paired);
         let usual = match (&sides, paired) {
             (Some(_), _) => MapKind::Z,
             (None, true) => MapKind::Signed,

@@ -1,10 +1,12 @@
 //! A comparison in words, for people.
 
-use crate::compare::verdict::{Estimate, Outcome, Spot, Verdict, quantile};
+use crate::compare::verdict::{Estimate, Outcome, Pixels, Spot, Verdict, quantile};
 use crate::compare::{Comparison, Described, Figure, Judgement, Kinship, Metric};
 use std::fmt::Write as _;
 use std::path::Path;
 
+/// Knobs that differ and are named.
+const MOST_KNOBS: usize = 8;
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// The whole report. Writing into a string cannot fail, so nothing is lost by not asking.
@@ -58,7 +60,7 @@ pub(super) fn report(comparison: &Comparison, reference: &Path, test: &Path) -> 
         judge(&mut text, gate);
     }
     if let Some(verdict) = &comparison.verdict {
-        conclude(&mut text, verdict);
+        conclude(&mut text, verdict, comparison.verdict_decides);
     } else if let Some(reason) = comparison
         .no_verdict
         .as_ref()
@@ -94,12 +96,18 @@ fn describe(text: &mut String, name: &str, path: &Path, image: &Described) {
 }
 
 fn relate(text: &mut String, kinship: &Kinship) {
-    for difference in &kinship.knobs {
+    for difference in kinship.knobs.iter().take(MOST_KNOBS) {
         let _ = writeln!(
             text,
             "knob {}: {} -> {}",
-            difference.knob, difference.reference, difference.test
+            difference.knob,
+            shown(&difference.reference),
+            shown(&difference.test)
         );
+    }
+    if kinship.knobs.len() > MOST_KNOBS {
+        let more = kinship.knobs.len() - MOST_KNOBS;
+        let _ = writeln!(text, "and {more} more knobs, which --json lists");
     }
     for other in &kinship.others {
         let _ = writeln!(text, "{other}");
@@ -109,6 +117,14 @@ fn relate(text: &mut String, kinship: &Kinship) {
             text,
             "warning: more differs than one knob, so the difference is not that knob's alone"
         );
+    }
+}
+
+/// A record names spheres and boxes only where `--set` changed them.
+fn shown(value: &serde_json::Value) -> String {
+    match value {
+        serde_json::Value::Null => "as the scene has it".into(),
+        value => value.to_string(),
     }
 }
 
@@ -151,6 +167,14 @@ fn judge(text: &mut String, gate: &Judgement) {
             gate.metric, gate.limit
         ),
     };
+    if let Some(passing) = gate.passing {
+        let flag = if gate.metric.rises() {
+            "--min"
+        } else {
+            "--max"
+        };
+        let _ = writeln!(text, "  {flag} {passing} would pass");
+    }
     if !gate.curve.is_empty() {
         let _ = writeln!(text, "  pixels beyond each limit of {}:", gate.metric);
     }
@@ -165,50 +189,75 @@ fn judge(text: &mut String, gate: &Judgement) {
     }
 }
 
-fn conclude(text: &mut String, verdict: &Verdict) {
+/// `decides` is false where limits decide.
+fn conclude(text: &mut String, verdict: &Verdict, decides: bool) {
     let alpha = verdict.terms.alpha;
-    let how = if verdict.paired {
-        "paired: both were made of the same random numbers"
-    } else {
-        "independent samples"
-    };
     let outcome = match verdict.outcome {
         Outcome::Same => "same expected image",
         Outcome::Different => "different",
         Outcome::NotEnoughSamples => "not enough samples to tell",
     };
+    let how = match verdict.paired {
+        true => "; paired, both are of the same random numbers",
+        false => "",
+    };
+    let aside = if decides {
+        ""
+    } else {
+        ", beside the limits, which decide"
+    };
     let _ = writeln!(
         text,
-        "verdict: {outcome} (chance of a false alarm {alpha}; {how})"
+        "verdict{aside}: {outcome} (chance of a false alarm {alpha}{how})"
     );
     match verdict.outcome {
-        Outcome::Same => {
-            let _ = writeln!(
-                text,
-                "  the means of the pictures agree to within {} (wanted: {})",
-                percent(verdict.supported_margin),
-                percent(verdict.terms.margin)
-            );
-        }
+        Outcome::Same => agreement(text, verdict),
         Outcome::Different => differences(text, verdict),
         Outcome::NotEnoughSamples => shortage(text, verdict),
     }
 }
 
+/// What the samples exclude.
+fn agreement(text: &mut String, verdict: &Verdict) {
+    let _ = writeln!(
+        text,
+        "  the means of the pictures agree to within {} (wanted: {})",
+        percent(verdict.supported_margin),
+        percent(verdict.terms.margin)
+    );
+    if let Some(tiles) = &verdict.tiles {
+        let [half, most] = tiles.margins;
+        let _ = writeln!(
+            text,
+            "  half of the tiles of {0} x {0} agree to within {1}, 99 % of them to within {2}; more samples would see finer",
+            tiles.side,
+            percent(half),
+            percent(most)
+        );
+    }
+}
+
+/// Two digits, more where the number has them before its point.
 fn percent(share: f64) -> String {
-    format!("{} %", short(100.0 * share))
+    let value = 100.0 * share;
+    if !value.is_finite() || value == 0.0 {
+        return format!("{value} %");
+    }
+    let unit = 10f64.powi((1 - value.abs().log10().floor() as i32).max(0));
+    format!("{} %", (value * unit).round() / unit)
 }
 
-/// Half the width of the interval that holds the truth with probability 1 - alpha.
-fn half_width(estimate: &Estimate, alpha: f64) -> f64 {
-    quantile(1.0 - 0.5 * alpha) * estimate.error
-}
-
+/// Difference with half the width of the interval that holds the truth with probability 1 - alpha;
+/// the same in percent of the reference.
 fn spelled(estimate: &Estimate, alpha: f64) -> String {
-    let (x, y) = (estimate.difference, half_width(estimate, alpha));
-    let relative = |value: f64| 100.0 * value / estimate.level().max(f64::MIN_POSITIVE);
+    let half_width = quantile(1.0 - 0.5 * alpha) * estimate.error;
+    let (x, y) = (estimate.difference, half_width);
+    if estimate.reference == 0.0 {
+        return format!("{x:+.3e} ± {y:.1e} (the reference is black)");
+    }
+    let relative = |value: f64| 100.0 * value / estimate.reference.abs();
     format!(
-        "{x:+.3e} ± {y:.1e} ({:+.3} ± {:.3} %)",
+        "{x:+.3e} ± {y:.1e} ({:+.3} ± {:.3} % of A)",
         relative(x),
         relative(y)
     )
@@ -216,15 +265,19 @@ fn spelled(estimate: &Estimate, alpha: f64) -> String {
 
 fn differences(text: &mut String, verdict: &Verdict) {
     let alpha = verdict.terms.alpha;
-    for (channel, mean) in verdict.pooled.iter().enumerate() {
-        if verdict.pooled_fails {
-            let _ = writeln!(
-                text,
-                "  mean of the picture, {:<5} {}",
-                CHANNELS[channel],
-                spelled(mean, alpha)
-            );
-        }
+    let apart = |mean: &&Estimate| verdict.pooled_fails && mean.difference != 0.0;
+    for (channel, mean) in verdict
+        .pooled
+        .iter()
+        .enumerate()
+        .filter(|(_, mean)| apart(mean))
+    {
+        let _ = writeln!(
+            text,
+            "  mean of the picture, {:<5} {}",
+            CHANNELS[channel],
+            spelled(mean, alpha)
+        );
     }
     if let Some(tiles) = verdict.tiles.as_ref().filter(|tiles| tiles.failing > 0) {
         let _ = writeln!(
@@ -237,20 +290,25 @@ fn differences(text: &mut String, verdict: &Verdict) {
             place(&tiles.worst, alpha)
         );
     }
-    if let Some(pixels) = verdict.pixels.as_ref().filter(|pixels| pixels.fails) {
-        let at = pixels
-            .cluster_at
-            .map_or(String::new(), |[x, y]| format!(" at {x},{y}"));
+    if let Some(pixels) = verdict.pixels.as_ref() {
+        failing_pixels(text, pixels, alpha);
+    }
+    let _ = writeln!(text, "  B - A, ± the {} interval", percent(1.0 - alpha));
+}
+
+/// The tests of the third layer that failed.
+fn failing_pixels(text: &mut String, pixels: &Pixels, alpha: f64) {
+    if let (true, Some([x, y])) = (pixels.cluster_fails, pixels.cluster_at) {
         let _ = writeln!(
             text,
-            "  {} pixels beyond {} standard errors (by chance at most {:.0}), largest cluster {}{at} (chance {:.1e}); most clearly {}",
-            pixels.failing,
-            pixels.far,
-            pixels.expected,
+            "  a cluster of {} pixels beyond {} standard errors at {x},{y}; by chance once in {:.1e} pictures",
             pixels.largest_cluster,
-            pixels.cluster_p,
-            place(&pixels.worst, alpha)
+            pixels.far,
+            1.0 / pixels.cluster_p
         );
+    }
+    if pixels.single_fails {
+        let _ = writeln!(text, "  a single pixel: {}", place(&pixels.worst, alpha));
     }
 }
 
@@ -270,7 +328,7 @@ fn place(spot: &Spot, alpha: f64) -> String {
 fn shortage(text: &mut String, verdict: &Verdict) {
     let _ = writeln!(
         text,
-        "  no difference found, but one of {} could have been missed; so far they agree to within {}",
+        "  no difference found, but one of {} of the mean could have been missed; so far the means agree to within {}",
         percent(verdict.terms.margin),
         percent(verdict.supported_margin)
     );

@@ -52,8 +52,13 @@ impl Estimate {
         two_sided(self.z)
     }
 
-    /// Mean of both pictures there.
-    pub fn level(&self) -> f64 {
-        (self.reference + 0.5 * self.difference).abs()
+    /// The smallest difference, relative to the reference, that two one-sided tests exclude, each at
+    /// the level of `z`; 0 where there is neither difference nor noise, infinite where there is some and
+    /// the reference is black.
+    pub fn margin(&self, z: f64) -> f64 {
+        match self.difference.abs() + z * self.error {
+            0.0 => 0.0,
+            widest => widest / self.reference.abs(),
+        }
     }
 }

@@ -11,6 +11,8 @@
 //!   (two one-sided tests, Schuirmann 1987): **same**, with the margin that they support.
 //! - Otherwise there are **not enough samples**, and about so many are needed.
 //!
+//! "Same" speaks of the mean of the picture; [`Tiles`] states what is known of its parts.
+//!
 //! Pictures that were made of the same random numbers are compared as paired: what their difference
 //! varies by is read from its spread over the pixels, which are independent of each other, and the third
 //! layer, for which there is no such spread, is left out. Where a pixel has fewer than four samples, its
@@ -22,9 +24,10 @@ mod needed;
 mod normal;
 mod pixels;
 mod tiles;
+mod vicinity;
 
 pub use estimate::Estimate;
-pub use moments::{Side, Sides};
+pub use moments::{Relation, Side, Sides};
 pub use needed::Needed;
 pub use normal::quantile;
 pub use pixels::Pixels;
@@ -74,7 +77,7 @@ pub struct Verdict {
     /// The chance of a false alarm that each of them was allowed.
     pub pooled_level: f64,
     pub pooled_fails: bool,
-    /// Absent where a pixel has fewer than four samples, unless the pictures are paired.
+    /// Absent where a pixel has fewer than four samples.
     pub tiles: Option<Tiles>,
     /// Absent where a pixel has fewer than four samples, and for paired pictures.
     pub pixels: Option<Pixels>,
@@ -89,7 +92,7 @@ const LEAST: f32 = 4.0;
 
 /// Number of layers.
 fn layers(sides: &Sides) -> f64 {
-    if sides.paired { 2.0 } else { 3.0 }
+    if sides.relation.paired { 2.0 } else { 3.0 }
 }
 
 /// Compares two pictures of one size, every pixel of which has two samples or more.
@@ -99,11 +102,14 @@ pub fn judge(sides: &Sides, terms: Terms) -> Verdict {
     let pooled_level = sidak(alpha, 3.0);
     let pooled_fails = pooled.iter().any(|mean| mean.p() < pooled_level);
     let enough = sides.fewest_samples() >= LEAST;
-    let tiles = (sides.paired || enough).then(|| tiles::judge(sides, alpha, terms.tolerance));
-    let pixels = (!sides.paired && enough).then(|| pixels::judge(sides, alpha, terms.tolerance));
+    let tiles = enough.then(|| tiles::judge(sides, alpha, terms.tolerance));
+    let pixels =
+        (!sides.relation.paired && enough).then(|| pixels::judge(sides, alpha, terms.tolerance));
     let differ = pooled_fails
         || tiles.as_ref().is_some_and(|tiles| tiles.failing > 0)
-        || pixels.as_ref().is_some_and(|pixels| pixels.fails);
+        || pixels
+            .as_ref()
+            .is_some_and(|pixels| pixels.cluster_fails || pixels.single_fails);
     let supported_margin = needed::supported_margin(&pooled, terms.alpha);
     let outcome = match differ {
         true => Outcome::Different,
@@ -115,7 +121,7 @@ pub fn judge(sides: &Sides, terms: Terms) -> Verdict {
     Verdict {
         outcome,
         terms,
-        paired: sides.paired,
+        paired: sides.relation.paired,
         pooled,
         pooled_level,
         pooled_fails,

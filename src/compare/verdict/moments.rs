@@ -1,6 +1,7 @@
 //! Means, variances and counts of both pictures, added up over some of their pixels.
 
 use super::estimate::Parts;
+use super::vicinity::{Vicinity, Whereabouts};
 use crate::pack::Rect;
 
 /// One picture with its noise.
@@ -13,8 +14,17 @@ pub struct Side<'a> {
     pub samples: &'a [f32],
 }
 
+/// What is known of how the two pictures were made.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Relation {
+    /// Whether of the same random numbers.
+    pub paired: bool,
+    /// Whether by the same estimator, so that their noise is alike wherever their images are.
+    pub same_estimator: bool,
+}
+
 /// Both pictures: reference and test.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Sides<'a> {
     pub reference: Side<'a>,
     pub test: Side<'a>,
@@ -22,25 +32,11 @@ pub struct Sides<'a> {
     pub height: usize,
     /// Column and row of the first pixel in the files, for naming places.
     pub origin: [u32; 2],
-    /// What the noise of one picture says of the other's, channel by channel.
-    expected: [Expected; 3],
-    /// Whether both pictures were made of the same random numbers.
-    pub paired: bool,
+    pub relation: Relation,
+    vicinity: Vicinity,
+    /// Of paired pictures: the variance of their difference over what independent ones would have.
+    shared: [f64; 3],
 }
-
-/// What is to be expected of one channel's noise.
-#[derive(Clone, Copy, Debug, Default)]
-struct Expected {
-    /// How much noisier one path of the test is than one of the reference, over the whole picture;
-    /// 0 where that cannot be said.
-    ratio: f64,
-    /// Variance over mean where there is noise: how bright the paths are that bring the light. Of the
-    /// picture that is [`NOISIER`] than the other; 0 for the other, or for both.
-    brightness: [f64; 2],
-}
-
-/// From this ratio on two pictures are taken to come from two estimators.
-const NOISIER: f64 = 2.0;
 
 /// Sums over pixels, one channel.
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,16 +55,22 @@ struct Sums {
 }
 
 impl<'a> Sides<'a> {
-    pub fn new(reference: Side<'a>, test: Side<'a>, region: Rect, paired: bool) -> Self {
-        Self {
+    pub fn new(reference: Side<'a>, test: Side<'a>, region: Rect, relation: Relation) -> Self {
+        let (width, height) = (region.width() as usize, region.height() as usize);
+        let mut sides = Self {
             reference,
             test,
-            width: region.width() as usize,
-            height: region.height() as usize,
+            width,
+            height,
             origin: [region.x0, region.y0],
-            expected: [0, 1, 2].map(|channel| Expected::of(reference, test, channel)),
-            paired,
+            relation,
+            vicinity: Vicinity::new([reference, test], width, height),
+            shared: [1.0; 3],
+        };
+        if relation.paired {
+            sides.shared = [0, 1, 2].map(|channel| sides.sum_all(channel).shared());
         }
+        sides
     }
 
     pub fn pixels(&self) -> usize {
@@ -92,7 +94,7 @@ impl<'a> Sides<'a> {
         all.copied().fold(f32::INFINITY, f32::min)
     }
 
-    fn add(&self, sums: &mut Sums, pixel: usize, channel: usize) {
+    fn add(&self, sums: &mut Sums, pixel: usize, channel: usize, around: &Whereabouts) {
         let at = |side: Side| {
             let n = f64::from(side.samples[pixel]);
             let variance = f64::from(side.variance[pixel][channel]);
@@ -108,13 +110,33 @@ impl<'a> Sides<'a> {
         sums.squares += difference * difference;
         sums.own[0] += first;
         sums.own[1] += second;
-        let Expected { ratio, brightness } = self.expected[channel];
-        if ratio > 0.0 {
-            let rare = [test.abs() * brightness[0], reference.abs() * brightness[1]];
-            sums.other[0] += (noisy / ratio).max(rare[0]) / many;
-            sums.other[1] += (calm * ratio).max(rare[1]) / n;
-        }
+        let expected = if self.relation.same_estimator {
+            [noisy, calm]
+        } else {
+            around.expected([calm, noisy], [reference, test])
+        };
+        sums.other[0] += expected[0] / many;
+        sums.other[1] += expected[1] / n;
         sums.spread += first * first / (many - 1.0) + second * second / (n - 1.0);
+    }
+
+    fn sum_all(&self, channel: usize) -> Sums {
+        let mut sums = Sums::default();
+        for pixel in 0..self.pixels() {
+            self.add(&mut sums, pixel, channel, &Whereabouts::default());
+        }
+        sums
+    }
+
+    fn sum(&self, [x0, y0, x1, y1]: [usize; 4], channel: usize) -> Sums {
+        let around = self.vicinity.of(x0, y0, channel);
+        let mut sums = Sums::default();
+        for y in y0..y1 {
+            for x in x0..x1 {
+                self.add(&mut sums, y * self.width + x, channel, &around);
+            }
+        }
+        sums
     }
 
     /// The mean difference over all pixels.
@@ -123,92 +145,43 @@ impl<'a> Sides<'a> {
     /// difference. But pixels share none among themselves, so its spread over the pixels does; with
     /// a difference that is not the same everywhere it is too large, never too small.
     pub fn everywhere(&self, channel: usize) -> Parts {
-        let mut sums = Sums::default();
-        for pixel in 0..self.pixels() {
-            self.add(&mut sums, pixel, channel);
-        }
-        if self.paired {
+        let sums = self.sum_all(channel);
+        if self.relation.paired {
             sums.by_spread()
         } else {
             sums.by_variances(sums.own[0] + sums.own[1])
         }
     }
 
-    /// The mean difference over the pixels of a rectangle, for which the pictures' own variances
-    /// cannot be trusted blindly.
+    /// The mean difference over the pixels of a tile or of a part of one, for which the pictures' own
+    /// variances cannot be trusted blindly.
     ///
     /// Where light comes by rare bright paths, a few samples may have met none of them, and then say
     /// with one voice that it is dark and that they are sure. So each picture's variance is taken to
-    /// be at least what the other picture finds in the same place, times the ratio of the two
-    /// pictures' noise as a whole.
-    pub fn within(&self, [x0, y0, x1, y1]: [usize; 4], channel: usize) -> Parts {
-        let mut sums = Sums::default();
-        for y in y0..y1 {
-            for x in x0..x1 {
-                self.add(&mut sums, y * self.width + x, channel);
-            }
+    /// be at least what the other picture makes one expect (see [`Whereabouts::expected`]).
+    ///
+    /// Of paired pictures, the spread over the tile's pixels counts; but no less than the share of
+    /// that variance which is left over the whole picture, for a few pixels may not have met what
+    /// makes the two differ.
+    pub fn within(&self, rect: [usize; 4], channel: usize) -> Parts {
+        let sums = self.sum(rect, channel);
+        if !self.relation.paired {
+            return sums.by_variances(sums.larger());
         }
-        if self.paired {
-            sums.by_spread()
-        } else {
-            sums.by_variances(sums.larger())
-        }
-    }
-
-    /// The difference of one pixel. Its variance is at least the mean one of its surroundings, a
-    /// rectangle of which [`Sides::within`] has told.
-    pub fn at(&self, pixel: usize, channel: usize, surroundings: &Parts, size: usize) -> Parts {
-        let mut sums = Sums::default();
-        self.add(&mut sums, pixel, channel);
-        let typical = surroundings.variance * size as f64;
-        sums.by_variances(sums.larger().max(typical))
-    }
-}
-
-impl Expected {
-    fn of(reference: Side, test: Side, channel: usize) -> Self {
-        let [calm, noisy] = [reference, test].map(|side| Total::of(side, channel));
-        if calm.variance == 0.0 || noisy.variance == 0.0 {
-            return Self::default();
-        }
-        let ratio = noisy.variance / calm.variance;
-        let only = |noisier: bool, total: Total| {
-            if noisier {
-                total.variance / total.mean
-            } else {
-                0.0
-            }
-        };
-        Self {
-            ratio,
-            brightness: [
-                only(ratio < 1.0 / NOISIER, calm),
-                only(ratio > NOISIER, noisy),
-            ],
+        let left = sums.by_variances(self.shared[channel] * sums.larger());
+        let spread = sums.by_spread();
+        Parts {
+            variance: spread.variance.max(left.variance),
+            ..spread
         }
     }
-}
 
-/// Of the pixels that have noise.
-#[derive(Clone, Copy)]
-struct Total {
-    variance: f64,
-    mean: f64,
-}
-
-impl Total {
-    fn of(side: Side, channel: usize) -> Self {
-        let mut total = Total {
-            variance: 0.0,
-            mean: 0.0,
-        };
-        for (mean, variance) in side.mean.iter().zip(side.variance) {
-            if variance[channel] > 0.0 {
-                total.variance += f64::from(variance[channel]);
-                total.mean += f64::from(mean[channel].abs());
-            }
-        }
-        total
+    /// The difference of one pixel. Its variance is at least the mean one of its tile, of which
+    /// [`Sides::within`] has told.
+    pub fn at(&self, pixel: usize, channel: usize, tile: &Parts, size: usize) -> Parts {
+        let (x, y) = (pixel % self.width, pixel / self.width);
+        let sums = self.sum([x, y, x + 1, y + 1], channel);
+        sums.by_variances(sums.larger().max(tile.variance * size as f64))
     }
 }
 
@@ -232,6 +205,17 @@ impl Sums {
     /// Variance of the sum, each picture's as the one that says more has it.
     fn larger(&self) -> f64 {
         self.own[0].max(self.other[0]) + self.own[1].max(self.other[1])
+    }
+
+    /// The variance of the mean difference by its spread, over what independent pictures would have.
+    fn shared(&self) -> f64 {
+        let independent = self.own[0] + self.own[1];
+        let spread = self.by_spread().variance * self.pixels * self.pixels;
+        if independent > 0.0 {
+            (spread / independent).min(1.0)
+        } else {
+            1.0
+        }
     }
 
     fn by_spread(&self) -> Parts {

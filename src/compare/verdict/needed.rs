@@ -6,7 +6,7 @@ use super::moments::{Side, Sides};
 use super::normal::quantile;
 use serde::Serialize;
 
-/// Where the means are equal, the chance that so many samples show it.
+/// The chance that so many samples are enough.
 const POWER: f64 = 0.95;
 
 /// How many samples a pixel would do.
@@ -21,29 +21,26 @@ pub struct Needed {
 }
 
 /// The smallest relative margin that two one-sided tests at `alpha` exclude in every channel.
-/// Channels that are black in both pictures have none.
 pub fn supported_margin(pooled: &[Estimate; 3], alpha: f64) -> f64 {
     let z = quantile(1.0 - alpha);
-    let margin = |mean: &Estimate| match mean.difference.abs() + z * mean.error {
-        0.0 => 0.0,
-        widest => widest / mean.level().max(f64::MIN_POSITIVE),
-    };
-    pooled.iter().map(margin).fold(0.0, f64::max)
+    pooled.iter().map(|mean| mean.margin(z)).fold(0.0, f64::max)
 }
 
-/// How many samples show the margin with probability [`POWER`] where the means are equal.
+/// How many samples give an answer with probability [`POWER`] where the means are apart by half the
+/// margin or less; a larger difference is found with them.
 pub fn needed(sides: &Sides, pooled: &[Estimate; 3], terms: Terms) -> Needed {
     let quantiles = quantile(1.0 - terms.alpha) + quantile(POWER);
     let mut factor: f64 = 1.0;
     let mut alone = Some(1.0_f64);
     for (channel, mean) in pooled.iter().enumerate() {
-        let allowed = (terms.margin * mean.level() / quantiles).powi(2);
+        let allowed = (0.5 * terms.margin * mean.reference / quantiles).powi(2);
         if mean.error == 0.0 || allowed == 0.0 {
             continue;
         }
         factor = factor.max(mean.error.powi(2) / allowed);
         let [reference, test] = [sides.reference, sides.test].map(|side| of_mean(side, channel));
-        let more = (!sides.paired && allowed > reference).then(|| test / (allowed - reference));
+        let more =
+            (!sides.relation.paired && allowed > reference).then(|| test / (allowed - reference));
         alone = alone.zip(more).map(|(most, more)| most.max(more));
     }
     let least = |side: Side| side.samples.iter().copied().fold(f32::INFINITY, f32::min);

@@ -35,7 +35,9 @@ pub struct Pixels {
     pub cluster_p: f64,
     /// The pixel that differs most clearly.
     pub worst: Spot,
-    pub fails: bool,
+    /// Whether the cluster, or the single pixel, is too unlikely.
+    pub cluster_fails: bool,
+    pub single_fails: bool,
 }
 
 /// z of every pixel, with the sign of its difference: that of the channel that is farthest off.
@@ -109,7 +111,8 @@ pub fn judge(sides: &Sides, alpha: f64, tolerance: f64) -> Pixels {
         }),
         cluster_p,
         worst,
-        fails: cluster_p < 0.5 * alpha || worst.estimate.p() < alone,
+        cluster_fails: cluster_p < 0.5 * alpha,
+        single_fails: worst.estimate.p() < alone,
     }
 }
 
