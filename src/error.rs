@@ -35,6 +35,10 @@ pub enum Error {
     /// An output that broke off; the old file, if any, is untouched (exit 74).
     #[error("cannot write {}: {source}; the file that was there before, if any, is untouched", path.display())]
     Write { path: PathBuf, source: io::Error },
+    /// Runs of a sweep that failed; the ledger holds each with its reason (exit 75:
+    /// the same command tries them again).
+    #[error("{0} runs failed: runs.jsonl says why; the same command tries them again")]
+    Runs(usize),
     /// A fault of lampray itself (exit 70).
     #[error(
         "internal error: {0}. This is a fault of lampray: please report it with the command and the scene"

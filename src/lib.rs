@@ -28,6 +28,7 @@
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
+//! | [`sweep`] | a grid of renders: axes, plan, ledger, table |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
 //! | `panics` | panics of other people's code, caught where they are called |
@@ -77,5 +78,6 @@ pub mod points;
 pub mod render;
 pub mod scene;
 pub mod shader;
+pub mod sweep;
 
 pub use error::{Error, Result};

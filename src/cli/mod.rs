@@ -11,6 +11,7 @@ mod render;
 mod rerun;
 mod run;
 mod signal;
+mod sweep;
 
 use crate::error::{Error, Result};
 use clap::{Args, Parser, Subcommand};
@@ -54,6 +55,7 @@ enum Command {
     Rerun(rerun::Command),
     Merge(merge::Command),
     Diff(Box<diff::Command>),
+    Sweep(Box<sweep::Command>),
 }
 
 /// Runs the program and says with which code it ends.
@@ -88,6 +90,7 @@ fn run(line: Lampray) -> Result<ExitCode> {
         Command::Points(command) => command.run(line.output),
         Command::Rerun(command) => command.run(line.output),
         Command::Merge(command) => command.run(line.output),
+        Command::Sweep(command) => command.run(line.output),
     }?;
     Ok(signal::exit_code())
 }
@@ -143,6 +146,6 @@ fn code(error: &Error) -> u8 {
         Error::Internal(_) => INTERNAL,
         Error::Create { .. } => 73,
         Error::Write { .. } => 74,
-        Error::DeviceLost(_) => 75,
+        Error::DeviceLost(_) | Error::Runs(_) => 75,
     }
 }

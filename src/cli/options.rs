@@ -15,6 +15,13 @@ pub(crate) struct KnobOptions {
     /// Set a knob over what the scene says; may be given many times, the last one counts
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
+    #[command(flatten)]
+    short: ShortKnobs,
+}
+
+/// Knobs with a flag of their own.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct ShortKnobs {
     /// Short for --set image.width=PIXELS
     #[arg(long, value_name = "PIXELS")]
     width: Option<String>,
@@ -43,6 +50,17 @@ impl KnobOptions {
             .iter()
             .map(|text| Assignment::parse(text))
             .collect::<Result<_>>()?;
+        all.extend(self.short.assignments());
+        Ok(all)
+    }
+
+    pub(crate) fn load(&self, path: &Path) -> Result<Scene> {
+        Scene::load(path, &self.assignments()?)
+    }
+}
+
+impl ShortKnobs {
+    pub(crate) fn assignments(&self) -> Vec<Assignment> {
         let short = [
             ("image.width", "--width", &self.width),
             ("image.height", "--height", &self.height),
@@ -51,16 +69,11 @@ impl KnobOptions {
             ("render.max_bounces", "--max-bounces", &self.max_bounces),
             ("render.preset", "--preset", &self.preset),
         ];
-        for (path, flag, value) in short {
-            if let Some(value) = value {
-                all.push(Assignment::new(path, value, format!("{flag} {value}")));
-            }
-        }
-        Ok(all)
-    }
-
-    pub(crate) fn load(&self, path: &Path) -> Result<Scene> {
-        Scene::load(path, &self.assignments()?)
+        let given = short.into_iter().filter_map(|(path, flag, value)| {
+            let value = value.as_ref()?;
+            Some(Assignment::new(path, value, format!("{flag} {value}")))
+        });
+        given.collect()
     }
 }
 

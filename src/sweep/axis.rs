@@ -98,7 +98,10 @@ fn expand(text: &str) -> std::result::Result<Vec<String>, String> {
         .skip(1)
         .find(|(at, letter)| matches!(letter, '+' | '*') && !rest[..*at].ends_with(['e', 'E']));
     let (last, step) = match operator {
-        Some((at, letter)) => (number(&rest[..at])?, Some((letter, number(&rest[at + 1..])?))),
+        Some((at, letter)) => (
+            number(&rest[..at])?,
+            Some((letter, number(&rest[at + 1..])?)),
+        ),
         None => (number(rest)?, None),
     };
     let values = match step {
@@ -133,7 +136,9 @@ fn steps(first: f64, last: f64, step: f64) -> std::result::Result<Vec<f64>, Stri
     if count >= MOST_RUNS as f64 {
         return Err(format!("over {MOST_RUNS} values"));
     }
-    Ok((0..=count as u64).map(|index| first + index as f64 * step).collect())
+    Ok((0..=count as u64)
+        .map(|index| first + index as f64 * step)
+        .collect())
 }
 
 fn factors(first: f64, last: f64, factor: f64) -> std::result::Result<Vec<f64>, String> {
@@ -157,7 +162,9 @@ mod tests {
     use super::*;
 
     fn values(text: &str) -> Vec<String> {
-        Axis::parse(&format!("a={text}")).unwrap_or_else(|error| panic!("{error}")).values
+        Axis::parse(&format!("a={text}"))
+            .unwrap_or_else(|error| panic!("{error}"))
+            .values
     }
 
     #[test]

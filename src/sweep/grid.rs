@@ -39,7 +39,9 @@ impl Grid {
         } else {
             let product = |all: usize, axis: &Axis| all.checked_mul(axis.values.len());
             let points = self.axes.iter().try_fold(1, product);
-            points.filter(|points| *points <= MOST_RUNS).ok_or_else(too_many)?
+            points
+                .filter(|points| *points <= MOST_RUNS)
+                .ok_or_else(too_many)?
         };
         let runs = points.checked_mul(self.repeats() as usize);
         runs.filter(|runs| *runs <= MOST_RUNS).ok_or_else(too_many)
@@ -51,7 +53,10 @@ impl Grid {
 
     fn check(&self) -> Result<()> {
         for (number, axis) in self.axes.iter().enumerate() {
-            if self.axes[..number].iter().any(|other| other.path == axis.path) {
+            if self.axes[..number]
+                .iter()
+                .any(|other| other.path == axis.path)
+            {
                 return Err(Error::Usage(format!("{} is swept twice", axis.path)));
             }
             if axis.path == SEED && self.seeds > 1 {
@@ -62,8 +67,11 @@ impl Grid {
         }
         let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
         if self.zip && lengths.windows(2).any(|pair| pair[0] != pair[1]) {
-            let list: Vec<String> =
-                self.axes.iter().map(|axis| format!("{} has {}", axis.path, axis.values.len())).collect();
+            let list: Vec<String> = self
+                .axes
+                .iter()
+                .map(|axis| format!("{} has {}", axis.path, axis.values.len()))
+                .collect();
             return Err(Error::Usage(format!(
                 "--zip takes the values in step, so all must have as many: {}",
                 list.join(", ")
@@ -83,9 +91,17 @@ impl Grid {
             let (mut index, repeat) = (run / repeats as usize, (run % repeats as usize) as u64);
             let mut values: Vec<(String, String)> = Vec::new();
             for axis in self.axes.iter().rev() {
-                let place = if self.zip { index } else { index % axis.values.len() };
+                let place = if self.zip {
+                    index
+                } else {
+                    index % axis.values.len()
+                };
                 values.push((axis.path.clone(), axis.values[place].clone()));
-                index = if self.zip { index } else { index / axis.values.len() };
+                index = if self.zip {
+                    index
+                } else {
+                    index / axis.values.len()
+                };
             }
             values.reverse();
             Point { values, repeat }
@@ -101,10 +117,13 @@ fn too_many() -> Error {
 impl Point {
     /// As `--set` has them; the seed is that of the repeat.
     pub fn assignments(&self, scene_seed: u64) -> Vec<Assignment> {
-        let set = |path: &str, value: &str| {
-            Assignment::new(path, value, format!("--set {path}={value}"))
-        };
-        let mut all: Vec<_> = self.values.iter().map(|(path, value)| set(path, value)).collect();
+        let set =
+            |path: &str, value: &str| Assignment::new(path, value, format!("--set {path}={value}"));
+        let mut all: Vec<_> = self
+            .values
+            .iter()
+            .map(|(path, value)| set(path, value))
+            .collect();
         if self.repeat > 0 {
             all.push(set(SEED, &scene_seed.wrapping_add(self.repeat).to_string()));
         }
@@ -123,7 +142,11 @@ mod tests {
     fn words(grid: &Grid) -> Vec<String> {
         let points = grid.points().unwrap_or_else(|error| panic!("{error}"));
         let word = |point: &Point| {
-            let values: Vec<_> = point.values.iter().map(|(_, value)| value.as_str()).collect();
+            let values: Vec<_> = point
+                .values
+                .iter()
+                .map(|(_, value)| value.as_str())
+                .collect();
             format!("{}#{}", values.join(" "), point.repeat)
         };
         points.iter().map(word).collect()
@@ -136,7 +159,9 @@ mod tests {
             zip: false,
             seeds: 2,
         };
-        let all = ["1 x#0", "1 x#1", "1 y#0", "1 y#1", "2 x#0", "2 x#1", "2 y#0", "2 y#1"];
+        let all = [
+            "1 x#0", "1 x#1", "1 y#0", "1 y#1", "2 x#0", "2 x#1", "2 y#0", "2 y#1",
+        ];
         assert_eq!(words(&grid), all);
     }
 
