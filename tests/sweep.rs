@@ -223,6 +223,51 @@ fn mistakes_are_said_before_anything_is_made() {
 }
 
 #[test]
+fn a_scene_says_itself_what_to_sweep() {
+    let folder = folder();
+    let at = folder.path();
+    let table = "[sweep]\nset = [\"light.sampler=cone,gaussian\", \"render.samples=2,4\"]\nzip = true\nseeds = 3\n[sweep.regions]\nfloor = [0, 8, 16, 16]\n";
+    fs::write(at.join("s.toml"), format!("{SCENE}{table}")).expect("the scene");
+    assert_eq!(code(at, &[]), 0);
+    assert_eq!(ids(at).len(), 6);
+    // The command line comes first.
+    assert_eq!(
+        code(
+            at,
+            &[
+                "--set",
+                "light.sampler=cone,gaussian",
+                "--set",
+                "render.samples=2,4",
+                "--seeds",
+                "1"
+            ]
+        ),
+        0
+    );
+    assert_eq!(ids(at).len(), 8);
+    for (wrong, reason) in [
+        ("[sweep]\nsets = []", "did you mean `set`?"),
+        ("[sweep]\nset = [1]", "`sweep.set` must be"),
+        ("[sweep]\nseeds = 0", "`sweep.seeds` must be"),
+        ("[sweep]\nzip = 1", "`sweep.zip` must be"),
+        (
+            "[sweep.regions]\na = [4, 4, 4, 8]",
+            "`sweep.regions.a` must be",
+        ),
+    ] {
+        fs::write(at.join("s.toml"), format!("{SCENE}{wrong}\n")).expect("the scene");
+        let output = sweep(at, &[]);
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(65), "{words}");
+        assert!(
+            words.contains(reason) && words.contains("s.toml:"),
+            "{words}"
+        );
+    }
+}
+
+#[test]
 fn a_run_that_takes_too_long_is_tried_again_next_time() {
     let folder = folder();
     let at = folder.path();

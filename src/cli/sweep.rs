@@ -18,7 +18,8 @@ use std::time::{Duration, Instant};
 /// Values are lists (a,b,c), whole numbers (1..8, both ends), steps (0..1+0.25) or factors
 /// (4..1024*2); several --set make a grid, --zip takes them in step. The folder gets runs.jsonl (one line
 /// a run, only ever added to), images/ID.exr and .png, and table.csv (one row a run, every knob). A run
-/// that is finished there is not made again; a failed one is.
+/// that is finished there is not made again; a failed one is. Without --set the scene's own [sweep]
+/// table says what to render: set = ["PATH=VALUES", ...], zip, seeds.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lampray sweep scenes/cornell.toml --set light.sampler=cone,gaussian --set render.samples=4..64*2 --seeds 8 -o samplers
@@ -33,9 +34,9 @@ pub(crate) struct Command {
     /// Take the values in step instead of in every combination
     #[arg(long)]
     zip: bool,
-    /// Repeat each point with so many seeds
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
-    seeds: u64,
+    /// Repeat each point with so many seeds [default: 1]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    seeds: Option<u64>,
     /// The folder; made where it is not there
     #[arg(short, long = "output", value_name = "DIR")]
     output: PathBuf,
@@ -71,16 +72,7 @@ impl Command {
             text: Scene::read_text(&self.scene)?,
             assignments: self.knobs.assignments(),
         };
-        let axes = self
-            .set
-            .iter()
-            .map(|text| Axis::parse(text))
-            .collect::<Result<_>>()?;
-        let grid = Grid {
-            axes,
-            zip: self.zip,
-            seeds: self.seeds,
-        };
+        let grid = self.grid(&base)?;
         grid.count()?;
         let mut device = Some(self.open(output)?);
         let plan = self.plan(&base, &grid, device.as_deref().map(|device| device.info()))?;
@@ -109,6 +101,25 @@ impl Command {
         let place = Place::prepare(self.output.join("table.csv"))?;
         place.write(|sink| sink.write_all(table(&entries).as_bytes()))?;
         self.conclude(summary, output)
+    }
+
+    /// The command line's grid; what it does not say, the scene's `[sweep]` does.
+    fn grid(&self, base: &Base) -> Result<Grid> {
+        let scene = Scene::parse(&base.name, &base.text, &base.assignments)?;
+        let wanted = &scene.sweep;
+        let set = if self.set.is_empty() {
+            &wanted.set
+        } else {
+            &self.set
+        };
+        Ok(Grid {
+            axes: set
+                .iter()
+                .map(|text| Axis::parse(text))
+                .collect::<Result<_>>()?,
+            zip: self.zip || (self.set.is_empty() && wanted.zip),
+            seeds: self.seeds.unwrap_or(wanted.seeds).max(1),
+        })
     }
 
     fn open(&self, output: Output) -> Result<Box<dyn Device>> {

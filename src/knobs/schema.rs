@@ -27,6 +27,7 @@ pub fn schema() -> Json {
         };
         properties.insert(section.into(), entry);
     }
+    properties.insert("sweep".into(), sweep());
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "lampray scene",
@@ -34,6 +35,22 @@ pub fn schema() -> Json {
         "type": "object",
         "properties": properties,
         "required": ["version", "camera"],
+        "additionalProperties": false,
+    })
+}
+
+/// `[sweep]`, which holds no knobs.
+fn sweep() -> Json {
+    let rect = json!({ "type": "array", "items": { "type": "integer", "minimum": 0 }, "minItems": 4, "maxItems": 4 });
+    json!({
+        "type": "object",
+        "description": "what lampray sweep renders, where the command line does not say",
+        "properties": {
+            "set": { "type": "array", "items": { "type": "string" }, "description": "PATH=VALUES, as --set takes them" },
+            "zip": { "type": "boolean", "description": "the values in step instead of every combination" },
+            "seeds": { "type": "integer", "minimum": 1, "maximum": 1_000_000, "description": "repeats of each point" },
+            "regions": { "type": "object", "additionalProperties": rect, "description": "x0, y0, x1, y1 by name" },
+        },
         "additionalProperties": false,
     })
 }

@@ -50,6 +50,7 @@ pub(crate) fn build(
         boxes,
         settings,
         knobs,
+        sweep: draft.sweep.clone(),
     })
 }
 

@@ -1,6 +1,7 @@
 //! A scene as it was written: every value that file or command line gave, with its origin, before
 //! defaults and presets fill the rest.
 
+use super::SweepTable;
 use super::faults::Origin;
 use crate::knobs::{Knob, Value};
 
@@ -16,6 +17,7 @@ pub(crate) struct Draft {
     pub(crate) boxes: Vec<Group>,
     /// Paths below `spheres` and `boxes` that the command line set.
     pub(crate) set_shapes: Vec<String>,
+    pub(crate) sweep: SweepTable,
 }
 
 /// The knobs of one table.

@@ -15,12 +15,14 @@ mod places;
 mod read;
 mod shapes;
 mod solid;
+mod sweep;
 
 pub use assign::Assignment;
 pub use faults::Mistakes;
 pub use finding::Finding;
 pub use load::MOST_BYTES;
 pub use read::MOST_PRIMITIVES;
+pub use sweep::{Region, SweepTable};
 
 use crate::knobs::{Scatter, Settings};
 use glam::DVec3;
@@ -42,6 +44,8 @@ pub struct Scene {
     /// Every knob with the value it has here, by path, as records carry them: all of them but
     /// `spheres.*` and `boxes.*`, of which only those that `--set` changed.
     pub knobs: serde_json::Map<String, serde_json::Value>,
+    /// What `lampray sweep` is asked for; a single render has no use of it.
+    pub sweep: SweepTable,
 }
 
 /// The text that a scene was read from.

@@ -2,6 +2,7 @@
 
 use super::draft::{Draft, Entry, Group};
 use super::faults::{Faults, Origin};
+use super::sweep;
 use crate::knobs::{KNOBS, Knob, REPEATED, a, in_section, nearest, sections, short};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -57,7 +58,9 @@ fn parse<'t>(text: &'t str, faults: &mut Faults<'_>) -> Option<DeTable<'t>> {
 }
 
 /// A table's entries in the order in which they were written.
-fn ordered<'t, 's>(table: &'t DeTable<'s>) -> Vec<(&'t Key<'s>, &'t Spanned<DeValue<'s>>)> {
+pub(super) fn ordered<'t, 's>(
+    table: &'t DeTable<'s>,
+) -> Vec<(&'t Key<'s>, &'t Spanned<DeValue<'s>>)> {
     let mut entries: Vec<_> = table.iter().collect();
     entries.sort_by_key(|(key, _)| key.span().start);
     entries
@@ -97,8 +100,13 @@ impl Reader<'_, '_> {
 
     fn top(&mut self, key: &Key<'_>, value: &Spanned<DeValue<'_>>, draft: &mut Draft) {
         let name = key.get_ref().as_ref();
-        if name == "version" {
-            return;
+        match name {
+            "version" => return,
+            "sweep" => {
+                draft.sweep = sweep::read(value, self.faults);
+                return;
+            }
+            _ => {}
         }
         let Some(section) = sections().into_iter().find(|section| *section == name) else {
             self.unknown_top(key);
@@ -119,11 +127,11 @@ impl Reader<'_, '_> {
         let name = key.get_ref().as_ref();
         self.faults.add(Origin::File(key.span()), || {
             let known = sections();
-            let near = nearest(name, known.iter().copied().chain(["version"]));
+            let near = nearest(name, known.iter().copied().chain(["version", "sweep"]));
             let keys = KNOBS.iter().map(Knob::key);
             let elsewhere = nearest(name, keys).and_then(owner).map(|knob| knob.path);
             let note = suggestion([near, elsewhere.filter(|_| near.is_none())])
-                .unwrap_or_else(|| format!("a scene holds version, {}", known.join(", ")));
+                .unwrap_or_else(|| format!("a scene holds version, sweep, {}", known.join(", ")));
             (format!("unknown key `{}`", short(name)), Some(note))
         });
     }

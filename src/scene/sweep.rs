@@ -1,0 +1,137 @@
+//! `[sweep]`: what a scene asks `lampray sweep` for, where the command line does not.
+//!
+//! ```toml
+//! [sweep]
+//! set = ["light.sampler=cone,gaussian", "render.samples=4..64*2"]
+//! seeds = 8
+//! [sweep.regions]
+//! penumbra = [40, 90, 60, 100]
+//! ```
+
+use super::faults::{Faults, Origin};
+use super::read::ordered;
+use crate::knobs::{a, nearest, short};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A part of the picture with a name, pixels; `x1` and `y1` are exclusive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    pub name: String,
+    /// x0, y0, x1, y1.
+    pub rect: [u32; 4],
+}
+
+/// The table as it was written.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SweepTable {
+    /// `PATH=VALUES`, as `--set` takes them.
+    pub set: Vec<String>,
+    pub zip: bool,
+    /// 0 where nothing was written.
+    pub seeds: u64,
+    pub regions: Vec<Region>,
+}
+
+const KEYS: [&str; 4] = ["set", "zip", "seeds", "regions"];
+
+/// Reads the table; what is wrong with it goes to `faults`.
+pub(super) fn read(value: &Spanned<DeValue<'_>>, faults: &mut Faults<'_>) -> SweepTable {
+    let mut sweep = SweepTable::default();
+    let DeValue::Table(table) = value.get_ref() else {
+        wrong(value, "sweep", "a table: write [sweep]", faults);
+        return sweep;
+    };
+    for (key, value) in ordered(table) {
+        match (key.get_ref().as_ref(), value.get_ref()) {
+            ("set", DeValue::Array(items)) => {
+                for item in items {
+                    match item.get_ref() {
+                        DeValue::String(text) => sweep.set.push(text.to_string()),
+                        _ => wrong(
+                            item,
+                            "sweep.set",
+                            "texts such as \"light.sampler=cone,gaussian\"",
+                            faults,
+                        ),
+                    }
+                }
+            }
+            ("set", _) => wrong(value, "sweep.set", "a list of texts", faults),
+            ("zip", DeValue::Boolean(zip)) => sweep.zip = *zip,
+            ("zip", _) => wrong(value, "sweep.zip", "true or false", faults),
+            ("seeds", _) => match whole(value).filter(|seeds| (1..=1_000_000).contains(seeds)) {
+                Some(seeds) => sweep.seeds = seeds,
+                None => wrong(
+                    value,
+                    "sweep.seeds",
+                    "a whole number from 1 to 1000000",
+                    faults,
+                ),
+            },
+            ("regions", DeValue::Table(table)) => sweep.regions = regions(table, faults),
+            ("regions", _) => wrong(
+                value,
+                "sweep.regions",
+                "a table of NAME = [x0, y0, x1, y1]",
+                faults,
+            ),
+            (name, _) => faults.add(Origin::File(key.span()), || {
+                let note = match nearest(name, KEYS) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("the keys here are {}", KEYS.join(", ")),
+                };
+                (
+                    format!("unknown key `{}` in `sweep`", short(name)),
+                    Some(note),
+                )
+            }),
+        }
+    }
+    sweep
+}
+
+fn regions(table: &DeTable<'_>, faults: &mut Faults<'_>) -> Vec<Region> {
+    let mut regions = Vec::new();
+    for (key, value) in ordered(table) {
+        let name = key.get_ref().to_string();
+        match rect(value) {
+            Some(rect) => regions.push(Region { name, rect }),
+            None => {
+                let path = format!("sweep.regions.{}", short(&name));
+                wrong(
+                    value,
+                    &path,
+                    "[x0, y0, x1, y1] in pixels with x0 < x1 and y0 < y1",
+                    faults,
+                );
+            }
+        }
+    }
+    regions
+}
+
+fn rect(value: &Spanned<DeValue<'_>>) -> Option<[u32; 4]> {
+    let DeValue::Array(items) = value.get_ref() else {
+        return None;
+    };
+    let numbers: Option<Vec<u32>> = items
+        .iter()
+        .map(|item| u32::try_from(whole(item)?).ok())
+        .collect();
+    let rect: [u32; 4] = numbers?.try_into().ok()?;
+    let [x0, y0, x1, y1] = rect;
+    (x0 < x1 && y0 < y1).then_some(rect)
+}
+
+fn whole(value: &Spanned<DeValue<'_>>) -> Option<u64> {
+    let number = value.get_ref().as_integer()?;
+    u64::from_str_radix(number.as_str(), number.radix()).ok()
+}
+
+fn wrong(value: &Spanned<DeValue<'_>>, path: &str, wanted: &str, faults: &mut Faults<'_>) {
+    faults.add(Origin::File(value.span()), || {
+        let found = a(value.get_ref());
+        (format!("`{path}` must be {wanted}, not {found}"), None)
+    });
+}
