@@ -23,10 +23,10 @@ mod normal;
 mod pixels;
 mod tiles;
 
-pub use estimate::Estimate;
+pub use estimate::{Estimate, Parts};
 pub use moments::{Side, Sides};
 pub use needed::Needed;
-pub use normal::quantile;
+pub use normal::{quantile, student};
 pub use pixels::Pixels;
 pub use tiles::{Spot, Tiles};
 
