@@ -13,7 +13,8 @@ pub(super) fn agreement(runs: &Runs, pixels: &[usize]) -> Option<Quantity> {
     if runs.len() < 2 {
         return None;
     }
-    let (mut expected, mut excess, mut squares) = (0.0, 0.0, 0.0);
+    let (mut expected, mut excess) = (0.0, 0.0);
+    let (mut squares, mut fourth) = (0.0, 0.0);
     for &index in pixels {
         let pixel = &runs.pixels[index];
         let mut x = 0.0;
@@ -25,9 +26,11 @@ pub(super) fn agreement(runs: &Runs, pixels: &[usize]) -> Option<Quantity> {
         }
         excess += x;
         squares += x * x;
+        fourth += x.powi(4);
     }
     (expected > 0.0).then(|| {
         let ratio = 1.0 + excess / expected;
-        Quantity::new(ratio, squares / (expected * expected), pixels.len() as f64)
+        let freedom = squares * squares / fourth.max(f64::MIN_POSITIVE);
+        Quantity::new(ratio, squares / (expected * expected), freedom)
     })
 }

@@ -1,9 +1,9 @@
 //! Mean squared error as a sum of bias^2 and noise, with what is not known of both together.
 
+use super::cell::{Cell, Weight};
 use super::quantity::{Channels, Quantity};
 use super::reference::Reference;
 use super::runs::Runs;
-use crate::compare::NEAR_BLACK;
 
 /// bias^2 + a v / N for any a, mean over some pixels; v / N is the noise of one run.
 ///
@@ -35,14 +35,6 @@ struct Channel {
     freedom: f64,
 }
 
-/// How a pixel's squares count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Weight {
-    Even,
-    /// 1 / (reference^2 + 0.01), with the reference as it is: its own noise there is of second order.
-    Relative,
-}
-
 impl Energy {
     /// Of a run's pixels against the reference; without one, of its noise alone.
     pub(super) fn new(
@@ -54,7 +46,7 @@ impl Energy {
         let channel = |channel| {
             let mut sums = Sums::new(runs.len());
             for &pixel in pixels {
-                sums.add(Cell::new(runs, reference, pixel, channel).weighted(weight));
+                sums.add(&Cell::new(runs, reference, pixel, channel, weight));
             }
             sums.channel()
         };
@@ -69,11 +61,7 @@ impl Energy {
         let channel = |channel| {
             let mut sums = Sums::new(runs.len());
             for &pixel in pixels {
-                let cell = Cell::new(runs, None, pixel, channel);
-                sums.add(Cell {
-                    inverse: 1.0,
-                    ..cell
-                });
+                sums.add(&Cell::of_one_sample(runs, pixel, channel));
             }
             sums.channel().at(1.0)
         };
@@ -121,69 +109,6 @@ impl Channel {
     }
 }
 
-/// One channel of one pixel.
-#[derive(Clone, Copy, Debug)]
-struct Cell {
-    /// Mean of all runs minus the reference, 0 without one.
-    difference: f64,
-    /// Variance of the reference's mean, and of that of all runs; 0 without a reference.
-    errors: [f64; 2],
-    /// Of one sample.
-    variance: f64,
-    /// 1 / N.
-    inverse: f64,
-    /// Variance of `variance`, and its covariance with the mean, for the mean of all runs.
-    spread: [f64; 2],
-    reference: f64,
-    weight: f64,
-    /// Of all runs.
-    samples: f64,
-}
-
-impl Cell {
-    fn new(runs: &Runs, reference: Option<&Reference>, pixel: usize, channel: usize) -> Self {
-        let of = &runs.pixels[pixel];
-        let variance = of.variance[channel];
-        let count = runs.len() as f64;
-        let spread = if runs.len() > 1 {
-            let [_, variances, mixed] = of.spread(channel, runs.len());
-            [variances / count, mixed / count]
-        } else {
-            // Of normal samples; only read where there is no neighbour to tell more.
-            [2.0 * variance * variance / (of.samples - 1.0), 0.0]
-        };
-        let mean = reference.map(|reference| reference.mean(pixel, channel));
-        Self {
-            difference: mean.map_or(0.0, |mean| of.mean[channel] - mean),
-            errors: reference.map_or([0.0; 2], |reference| {
-                [reference.noise(pixel, channel), runs.noise(pixel, channel)]
-            }),
-            variance,
-            inverse: of.inverse,
-            spread,
-            reference: mean.unwrap_or(0.0),
-            weight: 1.0,
-            samples: of.samples,
-        }
-    }
-
-    fn weighted(self, weight: Weight) -> Self {
-        let weight = match weight {
-            Weight::Even => 1.0,
-            Weight::Relative => 1.0 / (self.reference * self.reference + NEAR_BLACK),
-        };
-        Self { weight, ..self }
-    }
-
-    fn square(&self) -> f64 {
-        self.weight * (self.difference * self.difference - self.errors[0])
-    }
-
-    fn noise(&self) -> f64 {
-        self.weight * self.variance * self.inverse
-    }
-}
-
 /// Sums over pixels.
 #[derive(Clone, Debug, Default)]
 struct Sums {
@@ -211,22 +136,18 @@ impl Sums {
         }
     }
 
-    fn add(&mut self, cell: Cell) {
+    fn add(&mut self, cell: &Cell) {
         let (square, noise) = (cell.square(), cell.noise());
+        let within = cell.variances();
         self.pixels += 1.0;
         self.samples += cell.samples;
         self.square += square;
         self.noise += noise;
-        let w = cell.errors[0] + cell.errors[1];
-        let weights = cell.weight * cell.weight;
-        let squared = cell.difference * cell.difference;
-        let [spread, mixed] = cell.spread;
-        let of_noise = weights * spread * cell.inverse * cell.inverse;
-        self.within[0] += weights * (4.0 * w * squared - 2.0 * w * w);
-        self.within[1] += weights * 2.0 * cell.difference * mixed * cell.inverse;
-        self.within[2] += of_noise;
-        self.least += weights * 2.0 * w * w;
-        self.fourth += of_noise * of_noise;
+        for (sum, variance) in self.within.iter_mut().zip(within) {
+            *sum += variance;
+        }
+        self.least += cell.least();
+        self.fourth += within[2] * within[2];
         if let Some([last_square, last_noise]) = self.before {
             let (a, b) = (square - last_square, noise - last_noise);
             self.between[0] += 0.5 * a * a;

@@ -1,7 +1,8 @@
 //! One group's figures, region by region, and its maps.
 
 use super::agreement::agreement;
-use super::energy::{Energy, Weight};
+use super::cell::Weight;
+use super::energy::Energy;
 use super::quantity::{Channels, Quantity};
 use super::question::Question;
 use super::ratios;

@@ -47,6 +47,7 @@
 //! Group and reference must share no random numbers: the reference takes a seed of its own.
 
 mod agreement;
+mod cell;
 mod energy;
 mod fill;
 mod findings;
