@@ -29,6 +29,8 @@
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`sweep`] | a grid of renders: axes, plan, ledger, table |
+//! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
+//! | [`report`] | what a report of a sweep shows |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
 //! | `panics` | panics of other people's code, caught where they are called |
@@ -62,6 +64,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod analysis;
 pub mod calibrate;
 pub mod cli;
 pub mod compare;
@@ -76,6 +79,7 @@ mod panics;
 pub mod place;
 pub mod points;
 pub mod render;
+pub mod report;
 pub mod scene;
 pub mod shader;
 pub mod sweep;

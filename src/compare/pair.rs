@@ -134,7 +134,8 @@ fn cropped(image: Raster, region: Rect) -> Raster {
     }
 }
 
-fn part<T: Copy>(values: &[T], width: usize, region: Rect) -> Vec<T> {
+/// The values of a rectangle, row by row.
+pub(crate) fn part<T: Copy>(values: &[T], width: usize, region: Rect) -> Vec<T> {
     let rows = values
         .chunks_exact(width)
         .take(region.y1 as usize)

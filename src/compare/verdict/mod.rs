@@ -26,10 +26,10 @@ mod pixels;
 mod tiles;
 mod vicinity;
 
-pub use estimate::Estimate;
+pub use estimate::{Estimate, Parts};
 pub use moments::{Relation, Side, Sides};
 pub use needed::Needed;
-pub use normal::quantile;
+pub use normal::{quantile, student};
 pub use pixels::Pixels;
 pub use tiles::{Spot, Tiles};
 

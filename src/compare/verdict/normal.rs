@@ -32,8 +32,23 @@ pub fn from_student(t: f64, freedom: f64) -> f64 {
     if !freedom.is_finite() || freedom > 1e8 {
         return t.abs().min(FARTHEST);
     }
-    let scale = (8.0 * freedom + 1.0) / (8.0 * freedom + 3.0);
-    (scale * (freedom * (t * t / freedom).ln_1p()).sqrt()).min(FARTHEST)
+    (wallace(freedom) * (freedom * (t * t / freedom).ln_1p()).sqrt()).min(FARTHEST)
+}
+
+/// The number that Student's t with `freedom` degrees is below with probability `p`: the inverse of
+/// [`from_student`], too large by 1.2 % at three degrees and p = 0.975, by less from there on, and never
+/// too small there.
+pub fn student(p: f64, freedom: f64) -> f64 {
+    let z = quantile(p);
+    if !freedom.is_finite() || freedom > 1e8 {
+        return z;
+    }
+    let scaled = z / wallace(freedom);
+    z.signum() * (freedom * (scaled * scaled / freedom).exp_m1()).sqrt()
+}
+
+fn wallace(freedom: f64) -> f64 {
+    (8.0 * freedom + 1.0) / (8.0 * freedom + 3.0)
 }
 
 /// The level of each of `tests` tests that keeps the chance of any false alarm at `level` (Sidak 1967).
@@ -70,5 +85,24 @@ mod tests {
             assert!((z - truth).abs() < 0.05, "{t} {freedom}: {z} {truth}");
         }
         assert_eq!(from_student(-2.5, f64::INFINITY), 2.5);
+    }
+
+    /// Against tables; never narrower than they say.
+    #[test]
+    fn quantiles_of_student() {
+        for (freedom, truth, excess) in [
+            (3.0, 3.182, 0.012),
+            (5.0, 2.571, 0.004),
+            (10.0, 2.228, 0.002),
+            (60.0, 2.000, 0.001),
+            (f64::INFINITY, 1.960, 0.001),
+        ] {
+            let t = student(0.975, freedom);
+            assert!(
+                (-2e-4..excess).contains(&(t / truth - 1.0)),
+                "{freedom}: {t}"
+            );
+            assert_eq!(student(0.025, freedom), -t);
+        }
     }
 }

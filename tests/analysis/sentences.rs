@@ -1,0 +1,155 @@
+//! Findings, and what the report gets.
+
+use super::coverage::USUAL;
+use super::worlds::{Estimator, World, picture, region};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use half::f16;
+use lampray::analysis::{Analysis, Kind, Question, Runs, image, picture_image};
+use lampray::compare::verdict::Terms;
+use lampray::report::data::ReportData;
+use serde_json::Map;
+
+const LARGE: World = World {
+    size: 32,
+    samples: 64,
+    reference_samples: 65_536,
+    ..USUAL
+};
+
+fn findings(analysis: &Analysis) -> String {
+    analysis.findings().join("\n")
+}
+
+/// What comes before what.
+fn ordered(text: &str, parts: &[&str]) {
+    let places: Vec<_> = parts
+        .iter()
+        .map(|part| text.find(part).unwrap_or_else(|| panic!("{part}: {text}")))
+        .collect();
+    assert!(places.is_sorted(), "{text}");
+}
+
+#[test]
+fn bias_first_then_cost_then_crossing() {
+    let analysis = LARGE.sweep(1, [|_| {}, |_| {}]);
+    ordered(
+        &findings(&analysis),
+        &[
+            "second is biased: the whole picture is ",
+            " too bright.",
+            " first.",
+            "at equal time",
+            "second, whole picture: bias overtakes noise at ",
+        ],
+    );
+}
+
+#[test]
+fn which_is_better_and_by_how_much() {
+    let mut world = LARGE;
+    world.estimators[1] = Estimator {
+        bias: 0.0,
+        deviation: 0.5,
+        ..world.estimators[0]
+    };
+    let text = findings(&world.sweep(2, [|_| {}, |_| {}]));
+    ordered(
+        &text,
+        &["second has the least squared error at equal time: first has "],
+    );
+    assert!(!text.contains("biased"), "{text}");
+    world.estimators.swap(0, 1);
+    let text = findings(&world.sweep(3, [|_| {}, |_| {}]));
+    ordered(
+        &text,
+        &["first has the least squared error at equal time; the next, second, has "],
+    );
+    world.estimators[0] = world.estimators[1];
+    let text = findings(&world.sweep(4, [|_| {}, |_| {}]));
+    ordered(
+        &text,
+        &["No group is shown to have less squared error at equal time than first"],
+    );
+}
+
+#[test]
+fn runs_that_are_one_run() {
+    let question =
+        Question::new([8, 8], None, Vec::new(), Terms::default(), 1).expect("a question");
+    let mut runs = Runs::new("copies", Map::new());
+    for seed in 0..4 {
+        let grey = (0..64)
+            .map(|pixel| (1.0 + 0.1 * f64::from(pixel % 7), 1.0))
+            .collect();
+        runs.add(&picture(8, 16, seed, grey), 1.0).expect("a run");
+    }
+    let group = question.answer(runs).expect("a group");
+    let analysis = Analysis::new(question, vec![group], None).expect("a group");
+    let text = findings(&analysis);
+    assert!(text.starts_with("copies: the runs vary 0 (95 %"), "{text}");
+}
+
+#[test]
+fn the_report_is_filled() {
+    let analysis = LARGE.sweep(5, [|_| {}, |_| {}]);
+    let mut data = ReportData::default();
+    data.images
+        .push(picture_image("other", &picture(1, 4, 0, vec![(1.0, 1.0)])));
+    analysis.fill(&mut data);
+    assert_eq!(data.images.len(), 1 + 1 + 2 * 3);
+    assert_eq!(
+        data.reference.and_then(|reference| reference.image),
+        Some(1)
+    );
+    assert_eq!(data.regions[0].rect, [0, 0, 32, 32]);
+    let second = &data.groups[1];
+    assert_eq!((second.runs, second.samples), (4, 64));
+    let bias = &data.images[second.bias_image.expect("a reference")];
+    assert_eq!(
+        (bias.kind.as_str(), bias.name.as_str()),
+        ("bias", "second, bias")
+    );
+    let figures = &second.regions[0];
+    assert_eq!(figures.verdict.as_deref(), Some("different"));
+    assert!(
+        figures
+            .bias
+            .is_some_and(|bias| bias.low < 0.1 && 0.1 < bias.high)
+    );
+    assert!(figures.mse.is_some() && figures.relmse.is_some() && figures.crossing.is_some());
+    assert_eq!(data.findings, analysis.findings());
+}
+
+/// Little-endian halves, red first; what is too large becomes the largest that there is.
+#[test]
+fn images_are_halves() {
+    let image = image(
+        "x",
+        Kind::Bias,
+        [1, 2],
+        &[[0.5, -2.0, 1e9], [0.0, -1e9, 1.0]],
+    );
+    let bytes = STANDARD.decode(&image.half).expect("base64");
+    let values: Vec<f32> = bytes
+        .chunks_exact(2)
+        .map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f32())
+        .collect();
+    assert_eq!(values, [0.5, -2.0, 65504.0, 0.0, -65504.0, 1.0]);
+    assert_eq!(
+        (image.width, image.height, image.kind.as_str()),
+        (1, 2, "bias")
+    );
+}
+
+#[test]
+fn an_unknown_baseline() {
+    let question =
+        Question::new([1, 1], None, Vec::new(), Terms::default(), 1).expect("a question");
+    let error = Analysis::new(question, Vec::new(), Some("cone"));
+    assert!(error.is_err());
+    let part = region("corner", [0, 0, 1, 1]);
+    let question =
+        Question::new([1, 1], None, vec![part], Terms::default(), 1).expect("a question");
+    assert_eq!(question.regions().len(), 2);
+}
