@@ -30,6 +30,7 @@
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
+//! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
 //! | [`cli`] | one file a command, each a thin face over the library |
@@ -75,6 +76,7 @@ mod panics;
 pub mod place;
 pub mod points;
 pub mod render;
+pub mod report;
 pub mod scene;
 pub mod shader;
 

@@ -1,7 +1,7 @@
 // Bars with 95 % intervals: a quantity of every group, in one region or all.
 
 const BAR_KINDS = [
-  { key: "bias", title: "Bias", note: "Mean minus the reference’s, relative to it. A bar whose interval holds 0 shows no bias.", signed: true, show: signedPercent, tick: (value) => `${tickText(value * 100)}\u202f%` },
+  { key: "bias", title: "Bias", note: "Mean minus the reference’s, relative to it. A bar whose interval holds 0 shows no bias.", signed: true, unit: SIGNED_PERCENT, tick: (value) => `${tickText(value * 100)}\u202f%` },
   { key: "variance", title: "Variance of one sample", note: "Mean over the region’s pixels; independent of the number of samples." },
   { key: "mse", title: "MSE", note: "Mean squared error of a run’s pixels against the reference." },
   { key: "efficiency", title: "Efficiency, 1 / (MSE × seconds)", note: "Higher is better." },
@@ -71,7 +71,7 @@ function barRow(bar, top, x, { from, left, kind }) {
   parts.push(shape("path", { class: "error", d: `M${low},${middle}H${high}M${low},${middle - 4}v8M${high},${middle - 4}v8` }));
   if (from === undefined) parts.push(shape("circle", { class: "dot", cx: at, cy: middle, r: 4 }));
   const node = shape("g", { class: `bar-row ${colourClass(series)}` }, ...parts);
-  return withTip(node, [bar.group.name, `${kind.title}: ${intervalText(bar, kind.show)}`]);
+  return withTip(node, [bar.group.name, `${kind.title}: ${intervalText(bar, kind.unit)}`]);
 }
 
 /** The section: its choices and a chart for each region shown. */

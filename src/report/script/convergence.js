@@ -7,7 +7,7 @@ const ERRORS = [
   { key: "noise", title: "Noise, √(variance / N)", of: (found, group) => root(shared(found.variance, group.samples)), needs: "variance" },
 ];
 
-const BIAS = { key: "bias", title: "|Bias|, relative", of: (found) => sizeOf(found.bias), show: percent };
+const BIAS = { key: "bias", title: "|Bias|, relative", of: (found) => sizeOf(found.bias), unit: PERCENT };
 
 /** N* beyond this many times the most samples is said in words only. */
 const FARTHEST = 100;
@@ -26,13 +26,16 @@ function sizeOf(interval) {
   return { value: Math.abs(interval.value), low, high: Math.max(one, other) };
 }
 
-/** The points of a line that can stand on a logarithmic plot. */
+/** The points of a line. Where no bias is seen, the point is the most that it can be. */
 function pointsOf(series, quantity, against) {
   const points = series.groups.filter(kept).flatMap((group) => {
     const found = result(group, chosen.region);
     const error = quantity.of(found, group);
     const x = against === "seconds" ? group.seconds.value : group.samples;
-    return error && error.value > 0 && x > 0 ? [{ x, group, series, crossing: found.crossing ?? null, ...error }] : [];
+    if (!error || !(x > 0)) return [];
+    const limit = quantity === BIAS && error.low === 0;
+    const height = limit ? error.high : error.value;
+    return height > 0 ? [{ x, y: height, limit, group, series, crossing: found.crossing ?? null, ...error }] : [];
   });
   return points.sort((one, other) => one.x - other.x);
 }
@@ -51,23 +54,21 @@ function heightAt(points, x) {
   const after = points.findIndex((point) => point.x >= x);
   if (after <= 0) {
     const end = after === 0 ? points[0] : points.at(-1);
-    return end.value * Math.sqrt(end.x / x);
+    return end.y * Math.sqrt(end.x / x);
   }
   const [one, other] = [points[after - 1], points[after]];
-  return one.value * (other.value / one.value) ** (Math.log(x / one.x) / Math.log(other.x / one.x));
+  return one.y * (other.y / one.y) ** (Math.log(x / one.x) / Math.log(other.x / one.x));
 }
 
-/** The plot's ends: all points and crossings, and the bands as far as a decade below the points. */
+/** The plot's ends: all points and crossings, and the bands as far as a third below the points. */
 function extentOf(lines) {
-  const points = lines.flatMap((line) => [...line.points, ...(line.crossing ? [{ x: line.crossing.x, value: line.crossing.y }] : [])]);
-  const heights = points.map((point) => point.value);
-  const bands = lines.flatMap((line) => line.points.flatMap((point) => [point.low, point.high]));
-  const lowest = Math.min(...heights);
-  const xs = points.map((point) => point.x);
-  const grow = ([low, high], by) => [low / by, high * by];
+  const points = lines.flatMap((line) => [...line.points, ...(line.crossing ? [line.crossing] : [])]);
+  const bands = lines.flatMap((line) => line.points.flatMap((point) => (point.limit ? [] : [point.low, point.high])));
+  const [xs, ys] = [points.map((point) => point.x), points.map((point) => point.y)];
+  const lowest = Math.min(...ys);
   return {
-    x: grow([Math.min(...xs), Math.max(...xs)], 1.25),
-    y: grow([Math.max(lowest / 3, Math.min(lowest, ...bands)), Math.max(...heights, ...bands)], 1.3),
+    x: [Math.min(...xs) / 1.25, Math.max(...xs) * 1.25],
+    y: [Math.max(lowest / 3, Math.min(lowest, ...bands)) / 1.5, Math.max(...ys, ...bands) * 1.3],
   };
 }
 
@@ -85,44 +86,58 @@ function convergencePlot(quantity, width, choice) {
   const y = scaleFor(...extent.y, height - PLOT.bottom, PLOT.top, true);
   const svg = shape("svg", { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": `${quantity.title} against ${choice.against}` });
   const axisTitle = choice.against === "seconds" ? "Seconds" : "Samples a pixel";
-  svg.append(leftAxis(y, PLOT.left, width - PLOT.right, quantity.show ? (value) => `${tickText(value * 100)} %` : tickText));
+  svg.append(leftAxis(y, PLOT.left, width - PLOT.right, quantity.unit ? (value) => `${tickText(value * 100)} %` : tickText));
   svg.append(bottomAxis(x, PLOT.top, height - PLOT.bottom, axisTitle, width / 90));
-  const inside = shape("svg", { x: PLOT.left, y: PLOT.top, width: width - PLOT.left - PLOT.right, height: height - PLOT.top - PLOT.bottom, viewBox: `${PLOT.left} ${PLOT.top} ${width - PLOT.left - PLOT.right} ${height - PLOT.top - PLOT.bottom}` });
+  const inside = clipped(PLOT.left, PLOT.top, width - PLOT.left - PLOT.right, height - PLOT.top - PLOT.bottom);
   if (choice.guide) inside.append(slopeGuide(lines, x, y));
   if (choice.bands) inside.append(...lines.map((line) => band(line, x, y)));
   svg.append(inside, ...lines.map((line) => drawnLine(line, x, y, quantity)));
   return element("figure", { class: "plot" }, element("figcaption", {}, quantity.title), svg);
 }
 
+/** A part of a plot that nothing drawn in it leaves. */
+function clipped(x, y, width, height) {
+  return shape("svg", { x, y, width, height, viewBox: `${x} ${y} ${width} ${height}` });
+}
+
 /** The slope of noise, beside the lines. */
 function slopeGuide(lines, x, y) {
   const starts = lines.map((line) => line.points[0]);
-  const from = starts.reduce((one, other) => (other.value < one.value ? other : one));
-  const height = (at) => y(from.value * 0.72 * Math.sqrt(from.x / at));
-  const label = x.low * (x.high / x.low) ** 0.12;
+  const from = starts.reduce((one, other) => (other.y < one.y ? other : one));
+  const height = (at) => y(from.y * 0.62 * Math.sqrt(from.x / at));
+  const label = x.low * (x.high / x.low) ** 0.16;
   return shape("g", { class: "guide" },
     shape("line", { x1: x(x.low), y1: height(x.low), x2: x(x.high), y2: height(x.high) }),
-    shape("text", { x: x(label), y: height(label) + 18 }, "slope −½"));
+    shape("text", { x: x(label) - 6, y: height(label) + 14, "text-anchor": "end" }, "slope −½"));
 }
 
+/** The intervals of the points beside one another that are more than limits. */
 function band({ series, points }, x, y) {
   const held = (value) => y(Math.max(value, y.low / 10));
-  const above = points.map((point) => `${x(point.x)},${held(point.high)}`);
-  const below = points.map((point) => `${x(point.x)},${held(point.low)}`).reverse();
+  const known = points.filter((point) => !point.limit);
+  const above = known.map((point) => `${x(point.x)},${held(point.high)}`);
+  const below = known.map((point) => `${x(point.x)},${held(point.low)}`).reverse();
   return shape("polygon", { class: `band ${colourClass(series)}`, points: [...above, ...below].join(" ") });
 }
 
-/** A line with its points, and its crossing if there is one. */
+/** A line with its points, and its crossing if there is one; dotted where it joins limits. */
 function drawnLine({ series, points, crossing }, x, y, quantity) {
-  const path = points.map((point) => `${x(point.x)},${y(point.value)}`).join(" ");
-  const show = quantity.show ?? number;
-  const marks = points.map((point) => {
-    const seen = point.low > 0;
-    const lines = [series.name, `${count(point.group.samples)} samples, ${number(point.group.seconds.value)} s`, `${quantity.title}: ${intervalText(point, show)}`];
-    return withTip(shape("g", { class: seen ? "point" : "point unsure" }, mark(markKind(series), x(point.x), y(point.value))), lines);
-  });
+  const steps = points.slice(1).map((point, at) => shape("line", {
+    class: point.limit || points[at].limit ? "line ahead" : "line",
+    x1: x(points[at].x), y1: y(points[at].y), x2: x(point.x), y2: y(point.y),
+  }));
   const extra = crossing ? crossingMark(crossing, x, y) : [];
-  return shape("g", { class: `series ${colourClass(series)}` }, shape("polyline", { class: "line", points: path }), ...extra, ...marks);
+  return shape("g", { class: `series ${colourClass(series)}` }, ...steps, ...extra, ...points.map((point) => pointMark(point, x, y, quantity)));
+}
+
+/** A point: a full mark, or a hollow one with an arrow down for a limit. */
+function pointMark(point, x, y, { title, unit }) {
+  const [cx, cy] = [x(point.x), y(point.y)];
+  const { series, group, limit } = point;
+  const arrow = limit ? [shape("path", { class: "arrow", d: `M${cx},${cy}v17m-4,-5l4,5l4,-5` })] : [];
+  const said = limit ? `at most ${intervalParts({ ...point, value: point.high }, unit).value}; none is seen` : intervalText(point, unit);
+  const lines = [series.name, `${count(group.samples)} samples, ${number(group.seconds.value)} s`, `${title}: ${said}`];
+  return withTip(shape("g", { class: limit ? "point limit" : "point" }, ...arrow, mark(markKind(series), cx, cy)), lines);
 }
 
 /** N*: a cross on the line; dashes lead to it where no run has gone so far. */
@@ -132,8 +147,8 @@ function crossingMark({ x: at, y: height, samples, series, from }, x, y) {
     shape("circle", { class: "target", cx, cy, r: 9 }),
     shape("path", { d: `M${cx - 6},${cy - 6}l12,12m0,-12l-12,12` }),
     shape("text", { x: cx, y: cy - 12, "text-anchor": "middle" }, "N*"));
-  const dashes = at > from.x ? [shape("line", { class: "line ahead", x1: x(from.x), y1: y(from.value), x2: cx, y2: cy })] : [];
-  return [...dashes, withTip(cross, [series.name, `N* = ${count(Math.round(samples))} samples a pixel`, "bias² equals variance / N here"])];
+  const dashes = at > from.x ? [shape("line", { class: "line ahead", x1: x(from.x), y1: y(from.y), x2: cx, y2: cy })] : [];
+  return [...dashes, withTip(cross, [series.name, `N* ${roundCount(samples)} samples a pixel`, "bias² equals variance / N here"])];
 }
 
 /** The section: its choices, its legend, one plot of the error and one of the bias. */

@@ -11,9 +11,13 @@ function withMinus(text) {
   return text.replace("-", "−");
 }
 
+function isMissing(value) {
+  return value === null || value === undefined || Number.isNaN(value);
+}
+
 /** A number to so many significant digits; powers of ten where zeros would be counted. */
 function number(value, digits = 3) {
-  if (value === null || value === undefined || Number.isNaN(value)) return NOTHING;
+  if (isMissing(value)) return NOTHING;
   if (!Number.isFinite(value)) return value < 0 ? "−∞" : "∞";
   if (value === 0) return "0";
   const [mantissa, power] = Math.abs(value).toExponential(digits - 1).split("e");
@@ -24,7 +28,7 @@ function number(value, digits = 3) {
 
 /** A whole number in groups of three. */
 function count(value) {
-  if (value === null || value === undefined) return NOTHING;
+  if (isMissing(value)) return NOTHING;
   return withMinus(String(value)).replace(/\B(?=(\d{3})+(?!\d))/g, "\u202f");
 }
 
@@ -36,46 +40,55 @@ function tickText(value) {
     const mantissa = Number((value / 10 ** power).toPrecision(3));
     return withMinus(mantissa === 1 ? `10${superscript(power)}` : `${mantissa}×10${superscript(power)}`);
   }
-  return withMinus(String(Number(value.toPrecision(4))));
+  const text = withMinus(String(Number(value.toPrecision(4))));
+  return Math.abs(value) < 10000 ? text : count(text);
 }
 
-/** How many digits of a value its interval leaves: two of the interval's width. */
-function digitsWithin(interval) {
-  const width = (interval.high - interval.low) / 2;
-  const size = Math.max(Math.abs(interval.value), width);
-  if (!(width > 0) || !(size > 0)) return 3;
-  return Math.min(7, Math.max(2, Math.floor(Math.log10(size)) - Math.floor(Math.log10(width)) + 2));
+/** How numbers with intervals are written. */
+const PLAIN = { times: 1, end: "", sign: "" };
+const PERCENT = { times: 100, end: "\u202f%", sign: "" };
+const SIGNED_PERCENT = { times: 100, end: "\u202f%", sign: "+" };
+
+/** The place of the last digit that an interval leaves: two of its half-width, one from 3 on. */
+function lastPlace(halfWidth) {
+  const power = Math.floor(Math.log10(halfWidth));
+  return halfWidth / 10 ** power < 3 ? power - 1 : power;
 }
 
-/** Decimals that show an interval's width with two digits. */
-function rangeText(interval, show = number) {
-  const width = interval.high - interval.low;
-  if (!(width > 0)) return "";
-  const digits = (value) => digitsWithin({ ...interval, value });
-  return `[${show(interval.low, digits(interval.low))}, ${show(interval.high, digits(interval.high))}]`;
+/** A writer of numbers around `size` to a place: powers of ten where zeros would be counted. */
+function writer(size, place) {
+  const power = Math.floor(Math.log10(size));
+  const shift = power < -3 || power > 5 ? power : 0;
+  const decimals = Math.min(12, Math.max(0, shift - place));
+  return { write: (value) => (value / 10 ** shift).toFixed(decimals), end: shift === 0 ? "" : `×10${superscript(shift)}` };
 }
 
-/** A share as percent. */
-function percent(value, digits = 3) {
-  const text = number(value === null || value === undefined ? value : value * 100, digits);
-  return text === NOTHING ? text : `${text}\u202f%`;
-}
-
-/** A share with its sign, as percent. */
-function signedPercent(value, digits) {
-  return (value > 0 ? "+" : "") + percent(value, digits);
+/** A value and its range as texts of the same number of decimals. */
+function intervalParts({ value, low, high }, unit = PLAIN) {
+  const [middle, least, most] = [value, low, high].map((each) => (isMissing(each) ? each : each * unit.times));
+  if (isMissing(middle)) return { value: NOTHING, range: "" };
+  const halfWidth = (most - least) / 2;
+  const signed = (text) => withMinus(unit.sign && Number(text) > 0 ? unit.sign + text : text);
+  if (!(halfWidth > 0) || !Number.isFinite(halfWidth)) return { value: signed(number(middle)) + unit.end, range: "" };
+  const { write, end } = writer(Math.max(Math.abs(middle), Math.abs(least), Math.abs(most)), lastPlace(halfWidth));
+  return { value: signed(write(middle)) + end + unit.end, range: `[${signed(write(least))}, ${signed(write(most))}]` };
 }
 
 /** A value and its interval in one line, for tips and captions. */
-function intervalText(interval, show = number) {
+function intervalText(interval, unit) {
   if (!interval) return NOTHING;
-  return `${show(interval.value, digitsWithin(interval))} ${rangeText(interval, show)}`.trim();
+  const { value, range } = intervalParts(interval, unit);
+  return `${value} ${range}`.trim();
 }
 
 /** A value with its interval below it, for cells. */
-function intervalCell(interval, show = number) {
-  if (!interval || interval.value === null) return NOTHING;
-  const range = rangeText(interval, show);
-  const value = show(interval.value, digitsWithin(interval));
+function intervalCell(interval, unit) {
+  if (!interval) return NOTHING;
+  const { value, range } = intervalParts(interval, unit);
   return element("span", { class: "interval" }, value, range ? element("small", {}, range) : null);
+}
+
+/** Words in which a number keeps its percent sign beside it. */
+function typeset(sentence) {
+  return sentence.replace(/(\d) (?=%)/g, "$1\u202f");
 }

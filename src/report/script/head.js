@@ -25,7 +25,7 @@ function amount(many, thing) {
 
 function fillFindings() {
   const sentences = data.findings.length > 0 ? data.findings : ["The data say nothing yet."];
-  byId("finding-list").replaceChildren(...sentences.map((sentence) => element("li", {}, sentence)));
+  byId("finding-list").replaceChildren(...sentences.map((sentence) => element("li", {}, typeset(sentence))));
 }
 
 /** A switch for each value of each axis. */
@@ -59,13 +59,13 @@ function showKept() {
   byId("keep-all").hidden = all;
 }
 
-/** The reference, and how the runs ended. */
+/** The reference, how the runs ended, where they ran. */
 function fillFacts() {
   const facts = [];
   const { reference } = data;
   if (reference) {
-    const channels = reference.mean.map((value, at) => `${number(value, 4)} ± ${number(reference.standard_error[at], 2)}`);
-    facts.push(["Reference", `${reference.name}, ${count(reference.samples)} samples a pixel; mean radiance (± standard error) R ${channels[0]}, G ${channels[1]}, B ${channels[2]}`]);
+    facts.push(["Reference", `${reference.name}, ${count(reference.samples)} samples a pixel`]);
+    facts.push(["Its mean radiance", referenceMean(reference)]);
   } else {
     facts.push(["Reference", "None: bias and error are unknown; noise and time are shown."]);
   }
@@ -76,6 +76,12 @@ function fillFacts() {
   const devices = new Set(data.runs.map((run) => run.device).filter(Boolean));
   if (devices.size > 0) facts.push(["Devices", [...devices].join("; ")]);
   byId("facts").replaceChildren(...facts.flatMap(([term, text]) => [element("dt", {}, term), element("dd", {}, text)]));
+}
+
+/** R, G and B with their standard errors. */
+function referenceMean({ mean, standard_error: errors }) {
+  const parts = mean.map((value, at) => intervalParts({ value, low: value - errors[at], high: value + errors[at] }));
+  return parts.map(({ value, half }, at) => `${"RGB"[at]} ${value} ± ${half}`).join(", ");
 }
 
 /** The choice of a region, which every part of the page follows. */

@@ -1,7 +1,7 @@
 // Maps: one picture of every group, all on one scale.
 
 const MAP_KINDS = [
-  { key: "bias_image", title: "bias", legend: "Bias, mean of the channels", caption: (found) => found.bias && `bias ${intervalText(found.bias, signedPercent)}` },
+  { key: "bias_image", title: "bias", legend: "Bias, mean of the channels", caption: (found) => found.bias && intervalText(found.bias, SIGNED_PERCENT) },
   { key: "deviation_image", title: "standard deviation", legend: "Standard deviation of one sample, mean of the channels", caption: (found) => found.variance && `variance ${intervalText(found.variance)}` },
   { key: "mean_image", title: "mean", legend: "", caption: (found) => found.mean && `mean ${intervalText(found.mean)}` },
 ];

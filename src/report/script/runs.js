@@ -20,9 +20,9 @@ function meanOf(channels) {
 function meanCell(run) {
   const [mean, error] = [meanOf(run.mean), meanOf(run.standard_error)];
   if (mean === null) return NOTHING;
-  const digits = digitsWithin({ value: mean, low: mean - error, high: mean + error });
-  const channels = run.mean.map((value) => number(value, digits)).join(", ");
-  return element("span", { class: "interval", title: `R, G, B: ${channels}` }, number(mean, digits), element("small", {}, `± ${number(error, 2)}`));
+  const { value, half } = intervalParts({ value: mean, low: mean - error, high: mean + error });
+  const channels = run.mean.map((each) => number(each, 5)).join(", ");
+  return element("span", { class: "interval", title: `R, G, B: ${channels}` }, value, element("small", {}, `± ${half}`));
 }
 
 function runColumns() {
@@ -40,9 +40,9 @@ function runColumns() {
     numberColumn("rays", "Rays", (run) => run.rays, count, { shown: false }),
     numberColumn("speed", "Rays a second", perSecond, number, { shown: false }),
     { ...numberColumn("mean", "Mean", (run) => meanOf(run.mean), number, { help: "Mean radiance, with the channels' mean standard error" }), cell: meanCell, heads: ["Mean R", "Mean G", "Mean B", "SE R", "SE G", "SE B"], csv: (run) => [...run.mean, ...run.standard_error] },
-    textColumn("device", "Device", (run) => run.device),
-    textColumn("error", "Error", (run) => run.error, { absent: () => !data.runs.some((run) => run.error) }),
-    { key: "views", title: "Picture", cell: (run) => pictureButtons([["view", run.image]]) },
+    textColumn("device", "Device", (run) => run.device, { look: "device" }),
+    textColumn("error", "Error", (run) => run.error, { look: "words", absent: () => !data.runs.some((run) => run.error) }),
+    { key: "pictures", look: "pictures", title: "Picture", cell: (run) => pictureButtons([["view", run.image]]) },
   ];
 }
 

@@ -1,12 +1,16 @@
 // Tables that sort, filter, choose their columns and copy as CSV.
 //
 // A column: key, title, help, value(row) to sort by, cell(row) to show, csv(row) as a list under
-// heads, shown at first or not, numeric or not.
+// heads, shown at first or not, numeric or not, look as a class.
+
+/** Longer tables scroll by themselves, so that their heads stay in sight. */
+const MANY_ROWS = 40;
 
 /** A table in a host; returns a function that fills it. */
 function makeTable(host, { name, columns, rows }) {
   const table = {
-    name, rows,
+    name,
+    rows,
     columns: columns.filter((column) => !column.absent?.()).map((column) => ({ ...column, visible: column.shown !== false })),
     sort: { key: null, down: false },
     words: [],
@@ -14,7 +18,7 @@ function makeTable(host, { name, columns, rows }) {
   table.body = element("tbody");
   table.head = element("tr");
   table.tally = element("span", { class: "tally" });
-  const scroll = element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": `Table of ${name}` },
+  const scroll = element("div", { class: rows().length > MANY_ROWS ? "scroll long" : "scroll", tabindex: "0", role: "region", "aria-label": `Table of ${name}` },
     element("table", {}, element("thead", {}, table.head), table.body));
   host.replaceChildren(tableTools(table), scroll);
   return () => { fillHead(table); fillBody(table); };
@@ -47,12 +51,17 @@ function visibleColumns(table) {
   return table.columns.filter((column) => column.visible);
 }
 
+/** The class of a column's cells. */
+function lookOf(column) {
+  return column.numeric ? "numeric" : column.look;
+}
+
 /** Column heads: buttons that sort up, then down, then not at all. */
 function fillHead(table) {
   const cells = visibleColumns(table).map((column) => {
     const { key, down } = table.sort;
     const order = key !== column.key ? "none" : down ? "descending" : "ascending";
-    const attributes = { scope: "col", "aria-sort": column.value ? order : null, class: column.numeric ? "numeric" : null, title: column.help };
+    const attributes = { scope: "col", "aria-sort": column.value ? order : null, class: lookOf(column), title: column.help };
     if (!column.value) return element("th", attributes, column.title);
     return element("th", attributes, button(column.title, () => sortBy(table, column.key), { "data-key": column.key }));
   });
@@ -72,10 +81,6 @@ function sortBy(table, key) {
 function compare(one, other) {
   if (typeof one === "number" && typeof other === "number") return one - other;
   return String(one).localeCompare(String(other), "en", { numeric: true });
-}
-
-function isMissing(value) {
-  return value === null || value === undefined || Number.isNaN(value);
 }
 
 /** The rows that pass the filters, in the chosen order. */
@@ -101,7 +106,7 @@ function fillBody(table) {
   table.tally.textContent = `${count(rows.length)} of ${count(table.rows().length)}`;
   table.body.replaceChildren(...rows.map((row) => element("tr", {}, ...columns.map((column, at) => {
     const tag = at === 0 ? "th" : "td";
-    return element(tag, { scope: at === 0 ? "row" : null, class: column.numeric ? "numeric" : column.key }, column.cell(row));
+    return element(tag, { scope: at === 0 ? "row" : null, class: lookOf(column) }, column.cell(row));
   }))));
   if (rows.length === 0) table.body.append(element("tr", {}, element("td", { colspan: columns.length, class: "none" }, "Nothing passes the filters.")));
 }
@@ -128,11 +133,11 @@ function numberColumn(key, title, value, show, more = {}) {
 }
 
 /** A column of numbers with intervals; absent where nothing has one. */
-function intervalColumn(key, title, interval, show, more = {}) {
+function intervalColumn(key, title, interval, more = {}, unit = PLAIN) {
   return {
     key, title, numeric: true,
     value: (row) => interval(row)?.value ?? null,
-    cell: (row) => intervalCell(interval(row), show),
+    cell: (row) => intervalCell(interval(row), unit),
     heads: [title, `${title} low`, `${title} high`],
     csv: (row) => [interval(row)?.value, interval(row)?.low, interval(row)?.high],
     ...more,
@@ -141,11 +146,10 @@ function intervalColumn(key, title, interval, show, more = {}) {
 
 /** A column for each axis that some row has. */
 function axisColumns(items, shown) {
-  const axes = data.axes.filter(({ path }) => items.some((item) => path in item.values));
-  return axes.map(({ path }) => {
-    const value = (row) => (path in row.values ? row.values[path] : null);
-    const sortable = (row) => (typeof value(row) === "number" ? value(row) : value(row) === null ? null : valueText(value(row)));
-    const numeric = items.every((item) => typeof value(item) === "number" || value(item) === null);
-    return { key: `axis ${path}`, title: leaf(path), heads: [path], help: path, shown, numeric, value: sortable, cell: (row) => (sortable(row) === null ? NOTHING : valueText(value(row))), csv: (row) => [sortable(row)] };
+  return data.axes.filter(({ path }) => items.some((item) => path in item.values)).map(({ path }) => {
+    const isNumber = (item) => typeof item.values[path] === "number";
+    const value = (item) => (isNumber(item) ? item.values[path] : path in item.values ? valueText(item.values[path]) : null);
+    const numeric = items.every((item) => isNumber(item) || !(path in item.values));
+    return textColumn(`axis ${path}`, leaf(path), value, { heads: [path], help: path, shown, numeric });
   });
 }
