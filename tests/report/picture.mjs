@@ -58,8 +58,7 @@ export function room(u, v) {
   let albedo = [0.74, 0.72, 0.68];
   if (u < 0.22 - 0.1 * Math.abs(v - 0.5)) albedo = [0.63, 0.08, 0.06];
   if (u > 0.78 + 0.1 * Math.abs(v - 0.5)) albedo = [0.12, 0.46, 0.1];
-  const corner = v > 0.8 || v < 0.12 ? 0.82 : 1;
-  return albedo.map((value) => value * light * shade * corner * 1.6);
+  return albedo.map((value) => value * light * shade * 1.6);
 }
 
 /** How much of the lamp is hidden by the ball, 0..1. */

@@ -66,12 +66,12 @@ function writer(size, place) {
 /** A value and its range as texts of the same number of decimals. */
 function intervalParts({ value, low, high }, unit = PLAIN) {
   const [middle, least, most] = [value, low, high].map((each) => (isMissing(each) ? each : each * unit.times));
-  if (isMissing(middle)) return { value: NOTHING, range: "" };
+  if (isMissing(middle)) return { value: NOTHING, range: "", half: NOTHING };
   const halfWidth = (most - least) / 2;
   const signed = (text) => withMinus(unit.sign && Number(text) > 0 ? unit.sign + text : text);
-  if (!(halfWidth > 0) || !Number.isFinite(halfWidth)) return { value: signed(number(middle)) + unit.end, range: "" };
+  if (!(halfWidth > 0) || !Number.isFinite(halfWidth)) return { value: signed(number(middle)) + unit.end, range: "", half: NOTHING };
   const { write, end } = writer(Math.max(Math.abs(middle), Math.abs(least), Math.abs(most)), lastPlace(halfWidth));
-  return { value: signed(write(middle)) + end + unit.end, range: `[${signed(write(least))}, ${signed(write(most))}]` };
+  return { value: signed(write(middle)) + end + unit.end, range: `[${signed(write(least))}, ${signed(write(most))}]`, half: write(halfWidth) + end };
 }
 
 /** A value and its interval in one line, for tips and captions. */
