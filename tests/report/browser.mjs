@@ -173,7 +173,7 @@ export class Page {
   /** Presses a key where the focus is; `modifiers` as the protocol has them, 8 is Shift. */
   async key(key, modifiers = 0) {
     const text = key.length === 1 ? key : key === "Enter" ? "\r" : undefined;
-    const codes = { ArrowLeft: 37, ArrowUp: 38, ArrowRight: 39, ArrowDown: 40, Home: 36, End: 35, Enter: 13, Escape: 27, Tab: 9, " ": 32 };
+    const codes = { ArrowLeft: 37, Delete: 46, ArrowUp: 38, ArrowRight: 39, ArrowDown: 40, Home: 36, End: 35, Enter: 13, Escape: 27, Tab: 9, " ": 32 };
     const what = { key, code: KEYS[key] ?? key, modifiers, windowsVirtualKeyCode: codes[key] ?? key.charCodeAt(0) };
     await this.send("Input.dispatchKeyEvent", { type: "keyDown", text, ...what });
     await this.send("Input.dispatchKeyEvent", { type: "keyUp", ...what });

@@ -12,6 +12,9 @@ const BAR_KINDS = [
 
 const ROW = 24;
 
+/** The width that a letter of a name takes, at most nearly always. */
+const LETTER = 6.8;
+
 /** The groups that have this number in a region. */
 function barsOf(kind, region) {
   return keptGroups().flatMap((group) => {
@@ -32,10 +35,12 @@ function barExtent(bars, kind, logarithmic) {
   return [Math.min(...all) / 1.2, Math.max(...all) * 1.2];
 }
 
-/** Cuts a name to the room it has; the whole is in the tip. */
+/** Cuts the middle out of a name that has no room: names differ at their ends. The tip has it all. */
 function fitted(name, room) {
-  const most = Math.max(6, Math.floor(room / 6.6));
-  return name.length <= most ? name : `${name.slice(0, most - 1)}…`;
+  const most = Math.max(8, Math.floor(room / LETTER));
+  if (name.length <= most) return name;
+  const end = Math.floor(most / 2);
+  return `${name.slice(0, most - end - 1)}…${name.slice(-end)}`;
 }
 
 /** One chart: a region's bars. */
@@ -46,7 +51,7 @@ function barChart(kind, region, width, wantLog) {
   const name = data.regions[region]?.name ?? "whole";
   if (bars.length === 0) return element("p", { class: "none" }, `No ${kind.title.toLowerCase()} in ${name}.`);
   const longest = Math.max(...bars.map((bar) => bar.group.name.length));
-  const left = Math.min(width * 0.42, longest * 6.8 + 16);
+  const left = Math.min(width * 0.45, longest * LETTER + 16);
   const bottom = bars.length * ROW + 8;
   const x = scaleFor(...barExtent(bars, kind, logarithmic), left, width - 24, logarithmic);
   const svg = shape("svg", { viewBox: `0 0 ${width} ${bottom + 46}`, role: "group", "aria-label": `${kind.title}, ${name}` });

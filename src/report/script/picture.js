@@ -64,8 +64,8 @@ function differenceRange(first, second) {
 function drawRegion(context, left, top, scale) {
   if (chosen.region === 0 || !data.regions[chosen.region]) return;
   const [x0, y0, x1, y1] = data.regions[chosen.region].rect;
-  const rectangle = [left + x0 * scale, top + y0 * scale, (x1 - x0) * scale, (y1 - y0) * scale];
-  context.lineWidth = 3;
+  const rectangle = [left + x0 * scale + 1.5, top + y0 * scale + 1.5, (x1 - x0) * scale - 3, (y1 - y0) * scale - 3];
+  context.lineWidth = 4;
   context.strokeStyle = "rgb(0 0 0 / 0.75)";
   context.strokeRect(...rectangle);
   context.lineWidth = 1.5;

@@ -27,20 +27,22 @@ function linearTicks(low, high, wanted = 5) {
   return ticks;
 }
 
-/** Powers of ten; with 2 and 5 between them where there are few. */
-function logTicks(low, high, room = 6) {
-  const decades = Math.log10(high / low);
-  const within = decades < room / 2.6 ? [1, 2, 5] : [1];
-  const stride = Math.max(1, Math.ceil(decades / room));
+/** Every power of ten between low and high, times each of these. */
+function powerTicks(low, high, within) {
   const ticks = [];
-  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high) + 1e-9; power++) {
-    if (((power % stride) + stride) % stride !== 0) continue;
-    for (const each of within) {
-      const tick = each * 10 ** power;
-      if (tick >= low * 0.999 && tick <= high * 1.001) ticks.push(tick);
-    }
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power++) {
+    ticks.push(...within.map((each) => each * 10 ** power).filter((tick) => tick >= low * 0.999 && tick <= high * 1.001));
   }
   return ticks;
+}
+
+/** Powers of ten, with 2 and 5 between them where there is room; fewer where there is not. */
+function logTicks(low, high, room = 6) {
+  const fine = powerTicks(low, high, [1, 2, 5]);
+  const coarse = powerTicks(low, high, [1]);
+  if (fine.length <= room * 1.5 || coarse.length < 2) return fine;
+  const stride = Math.ceil(coarse.length / (room * 1.5));
+  return coarse.filter((_, at) => at % stride === 0);
 }
 
 function ticksOf(scale, room) {
