@@ -33,6 +33,7 @@
 //! | [`report`] | what a report of a sweep shows |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
+//! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
 //! | [`cli`] | one file a command, each a thin face over the library |

@@ -1,0 +1,106 @@
+// Opens made-up reports in a headless Chromium and uses every control.
+// node run.mjs CHROMIUM [FOLDER FOR SCREENSHOTS]
+import { mkdirSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { page as assemble } from "./assemble.mjs";
+import { launch, Page } from "./browser.mjs";
+import { equal, holds, verdict } from "./check.mjs";
+import { headChecks } from "./head_checks.mjs";
+import { plotChecks } from "./plot_checks.mjs";
+import { shoot } from "./shots.mjs";
+import { synthetic } from "./synthetic.mjs";
+import { tableChecks } from "./table_checks.mjs";
+import { touchChecks, viewerChecks } from "./viewer_checks.mjs";
+
+const MOST_BYTES = 30e6;
+const MOST_MS = 2000;
+
+const [program, shots] = process.argv.slice(2);
+const folder = mkdtempSync(join(tmpdir(), "report-pages-"));
+
+/** A report of a kind on disk. */
+function written(kind) {
+  const file = join(folder, `${kind}.html`);
+  writeFileSync(file, assemble(synthetic(kind)));
+  return { url: pathToFileURL(file).href, bytes: statSync(file).size };
+}
+
+/** What must hold of every page when it was used. */
+async function blameless(what, page) {
+  equal(`${what}: faults in the console`, page.faults, []);
+  equal(`${what}: requests`, page.requests.filter((url) => !url.startsWith("data:")), []);
+  await page.close();
+}
+
+async function fullReport(browser, { url, bytes }) {
+  const page = await Page.open(browser, url);
+  console.log(`opening 200 runs: ${Math.round(page.opened)} ms, ${(bytes / 1e6).toFixed(1)} MB`);
+  holds(`it opens within ${MOST_MS} ms`, page.opened < MOST_MS, page.opened);
+  holds("it is small enough", bytes < MOST_BYTES, bytes);
+  await headChecks(page);
+  await tableChecks(page);
+  await viewerChecks(page);
+  await plotChecks(page);
+  await blameless("full", page);
+}
+
+async function phone(browser, { url }) {
+  const page = await Page.open(browser, url, { width: 360, height: 740, touch: true, scale: 2 });
+  equal("nothing is wider than a phone", await page.run(() => document.documentElement.scrollWidth), 360);
+  await touchChecks(page);
+  await blameless("phone", page);
+}
+
+async function unreferenced(browser, { url }) {
+  const page = await Page.open(browser, url);
+  holds("the page says that there is no reference", (await page.text("#facts")).includes("None"));
+  equal("noise is what is left to show", await page.run(() => [...document.querySelectorAll("#error-kind option")].map((option) => option.value)), ["noise"]);
+  equal("columns of what is unknown are gone", await page.many('#group-table [data-key="bias"], #group-table [data-key="rmse"]'), 0);
+  await blameless("unreferenced", page);
+}
+
+async function hostile(browser, { url }) {
+  const page = await Page.open(browser, url);
+  equal("the title is text", await page.text("h1"), "</script><b>bold</b><!--<script>alert(1)");
+  equal("no element came out of a name", await page.many("main b:not(.slot b), main i, body > b"), 0);
+  holds("a seed of 64 bits is exact", await seedShown(page), await page.text("#run-table tbody tr"));
+  equal("all groups are there", await page.many("#group-table tbody tr"), 20);
+  await blameless("hostile", page);
+}
+
+async function seedShown(page) {
+  await page.click("#run-table summary");
+  const box = await page.run(() => [...document.querySelectorAll("#run-table .menu label")].findIndex((label) => label.textContent.trim() === "Seed") + 1);
+  await page.click(`#run-table .menu label:nth-child(${box}) input`);
+  return (await page.text("#run-table tbody tr")).includes("18446744073709551615");
+}
+
+async function empty(browser, { url }) {
+  const page = await Page.open(browser, url);
+  equal("sections without data are hidden, and so are their links", await page.run(() => [...document.querySelectorAll("main > section, nav a")].filter((each) => each.hidden).map((each) => each.id || each.hash)), ["#convergence", "#comparison", "#pictures", "#maps", "convergence", "comparison", "pictures", "maps"]);
+  await blameless("empty", page);
+}
+
+const browser = await launch(program);
+try {
+  await browser.send("Browser.grantPermissions", { permissions: ["clipboardReadWrite", "clipboardSanitizedWrite"] });
+  const full = written("full");
+  await fullReport(browser, full);
+  await phone(browser, full);
+  await unreferenced(browser, written("unreferenced"));
+  await hostile(browser, written("hostile"));
+  await empty(browser, written("empty"));
+  if (shots) {
+    mkdirSync(shots, { recursive: true });
+    await shoot(browser, full.url, resolve(shots));
+    console.log(`screenshots are in ${shots}`);
+  }
+} catch (fault) {
+  holds("the checks went through", false, fault.stack);
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+}
+process.exitCode = verdict() ? 0 : 1;
