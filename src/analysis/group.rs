@@ -9,7 +9,7 @@ use super::ratios;
 use super::reference::Reference;
 use super::runs::Runs;
 use crate::compare::part;
-use crate::compare::verdict::{Side, Sides, Verdict, judge};
+use crate::compare::verdict::{Relation, Side, Sides, Verdict, judge};
 use crate::pack::Rect;
 use serde_json::{Map, Value};
 
@@ -131,7 +131,7 @@ impl RegionFigures {
     ) -> Self {
         let width = question.size[0] as usize;
         let reference = Planes::cut(&reference.side(), width, rect);
-        let sides = Sides::new(reference.side(), test.side(), rect, false);
+        let sides = Sides::new(reference.side(), test.side(), rect, Relation::default());
         let parts = [0, 1, 2].map(|channel| sides.everywhere(channel));
         let bias = parts.map(|of| Quantity::new(of.difference, of.variance, of.freedom));
         Self {

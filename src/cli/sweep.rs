@@ -1,12 +1,18 @@
 use super::options::{DeviceOptions, ShortKnobs};
 use super::signal::Watch;
 use super::{Output, note, print};
+use crate::analysis::{Reference, Region};
 use crate::device::{Device, DeviceInfo};
 use crate::error::{Error, Result};
+use crate::film::read_exr;
+use crate::pack::Rect;
 use crate::place::Place;
 use crate::render::{self, Task};
+use crate::report::page;
 use crate::scene::Scene;
-use crate::sweep::{Axis, Base, Grid, Plan, Planned, Progress, Rules, Summary, Sweep, table};
+use crate::sweep::{
+    About, Axis, Base, Grid, Plan, Planned, Progress, Rules, Summary, Sweep, report_data, table,
+};
 use clap::Args;
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -17,7 +23,8 @@ use std::time::{Duration, Instant};
 ///
 /// Values are lists (a,b,c), whole numbers (1..8, both ends), steps (0..1+0.25) or factors
 /// (4..1024*2); several --set make a grid, --zip takes them in step. The folder gets runs.jsonl (one line
-/// a run, only ever added to), images/ID.exr and .png, and table.csv (one row a run, every knob). A run
+/// a run, only ever added to), images/ID.exr and .png, table.csv (one row a run, every knob) and
+/// report.html (one file, works offline): bias, noise and cost with intervals, and the pictures. A run
 /// that is finished there is not made again; a failed one is. Without --set the scene's own [sweep]
 /// table says what to render: set = ["PATH=VALUES", ...], zip, seeds.
 #[derive(Args)]
@@ -55,6 +62,9 @@ pub(crate) struct Command {
     /// Give a run up after so many seconds
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<f64>,
+    /// What the runs are held against for bias and error: an EXR of many samples, with another seed
+    #[arg(long, value_name = "EXR")]
+    reference: Option<PathBuf>,
     /// Make only the I-th of N parts of the grid
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
@@ -98,8 +108,22 @@ impl Command {
         };
         let summary = sweep.go(&mut open, &mut watch)?;
         let entries = sweep.entries()?;
-        let place = Place::prepare(self.output.join("table.csv"))?;
-        place.write(|sink| sink.write_all(table(&entries).as_bytes()))?;
+        self.write("table.csv", &table(&entries))?;
+        let about = About {
+            title: self
+                .scene
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            command: command_line(),
+            grid: &grid,
+            ids: plan.runs.iter().map(|run| run.id.as_str()).collect(),
+            regions: regions(&base)?,
+            reference: self.reference()?,
+        };
+        let data = report_data(&self.output, &entries, about)?;
+        self.write("report.html", &page(&data)?)?;
         self.conclude(summary, output)
     }
 
@@ -184,6 +208,16 @@ impl Command {
         ))
     }
 
+    fn write(&self, name: &str, text: &str) -> Result<()> {
+        let place = Place::prepare(self.output.join(name))?;
+        place.write(|sink| sink.write_all(text.as_bytes()))
+    }
+
+    fn reference(&self) -> Result<Option<Reference>> {
+        let read = |path: &PathBuf| Reference::new(&path.to_string_lossy(), read_exr(path)?);
+        self.reference.as_ref().map(read).transpose()
+    }
+
     fn conclude(&self, summary: Summary, output: Output) -> Result<()> {
         let Summary {
             made,
@@ -228,6 +262,33 @@ fn time_a_path(base: &Base, run: &Planned, device: &mut dyn Device) -> Result<f6
     };
     pilot()?;
     pilot()
+}
+
+/// The scene's `[sweep.regions]`.
+fn regions(base: &Base) -> Result<Vec<Region>> {
+    let scene = Scene::parse(&base.name, &base.text, &base.assignments)?;
+    let region = |region: crate::scene::Region| {
+        let [x0, y0, x1, y1] = region.rect;
+        Region {
+            name: region.name,
+            rect: Rect { x0, y0, x1, y1 },
+        }
+    };
+    Ok(scene.sweep.regions.into_iter().map(region).collect())
+}
+
+/// As it was typed, for a shell.
+fn command_line() -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
+    let quoted = |word: String| match word.chars().all(plain) && !word.is_empty() {
+        true => word,
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    };
+    let words = std::env::args().skip(1).map(quoted);
+    std::iter::once("lampray".to_string())
+        .chain(words)
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 fn describe(progress: &Progress) -> String {
