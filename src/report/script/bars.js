@@ -10,7 +10,9 @@ const BAR_KINDS = [
   { key: "mean", title: "Mean radiance", note: "Mean of the region’s pixels." },
 ];
 
+/** Heights of a row's bar, and of a name above it. */
 const ROW = 24;
+const NAME = 15;
 
 /** The width that a letter of a name takes, at most nearly always. */
 const LETTER = 6.8;
@@ -35,12 +37,16 @@ function barExtent(bars, kind, logarithmic) {
   return [Math.min(...all) / 1.2, Math.max(...all) * 1.2];
 }
 
-/** Cuts the middle out of a name that has no room: names differ at their ends. The tip has it all. */
+/** Cuts a name that has no room; the tip has it all. */
 function fitted(name, room) {
   const most = Math.max(8, Math.floor(room / LETTER));
-  if (name.length <= most) return name;
-  const end = Math.floor(most / 2);
-  return `${name.slice(0, most - end - 1)}…${name.slice(-end)}`;
+  return name.length <= most ? name : `${name.slice(0, most - 1)}…`;
+}
+
+/** Where names stand: left of the bars, or above each where they would take half the width. */
+function nameLayout(bars, width) {
+  const wanted = Math.max(...bars.map((bar) => bar.group.name.length)) * LETTER + 16;
+  return wanted <= width * 0.46 ? { left: wanted, row: ROW, above: false } : { left: 12, row: ROW + NAME, above: true };
 }
 
 /** One chart: a region's bars. */
@@ -50,33 +56,37 @@ function barChart(kind, region, width, wantLog) {
   const bars = logarithmic ? all.filter((bar) => bar.value > 0) : all;
   const name = data.regions[region]?.name ?? "whole";
   if (bars.length === 0) return element("p", { class: "none" }, `No ${kind.title.toLowerCase()} in ${name}.`);
-  const longest = Math.max(...bars.map((bar) => bar.group.name.length));
-  const left = Math.min(width * 0.45, longest * LETTER + 16);
-  const bottom = bars.length * ROW + 8;
-  const x = scaleFor(...barExtent(bars, kind, logarithmic), left, width - 24, logarithmic);
+  const layout = nameLayout(bars, width);
+  const bottom = bars.length * layout.row + 8;
+  const x = scaleFor(...barExtent(bars, kind, logarithmic), layout.left, width - 24, logarithmic);
   const svg = shape("svg", { viewBox: `0 0 ${width} ${bottom + 46}`, role: "group", "aria-label": `${kind.title}, ${name}` });
-  svg.append(bottomAxis(x, 4, bottom, kind.title, Math.max(2, (width - left) / 90), kind.tick));
+  svg.append(bottomAxis(x, 4, bottom, kind.title, Math.max(2, (width - layout.left) / 90), kind.tick));
   const from = logarithmic ? kind.base : kind.base ?? 0;
   if (from !== undefined) svg.append(shape("line", { class: "base", x1: x(from), x2: x(from), y1: 4, y2: bottom }));
-  svg.append(...bars.map((bar, at) => barRow(bar, 8 + at * ROW, x, { from: logarithmic ? undefined : 0, left, kind })));
+  svg.append(...bars.map((bar, at) => barRow(bar, 8 + at * layout.row, x, { from: logarithmic ? undefined : 0, layout, kind })));
   return element("figure", { class: "plot" }, element("figcaption", {}, name), svg);
 }
 
 /** A group's row: its name, its bar (a dot where bars would have no start), its interval. */
-function barRow(bar, top, x, { from, left, kind }) {
+function barRow(bar, top, x, { from, layout, kind }) {
   const series = seriesOfGroup.get(bar.group);
-  const middle = top + ROW / 2 - 2;
+  const middle = top + layout.row - ROW / 2 - 2;
   const held = (value) => Math.min(x.to, Math.max(x.from, x.logarithmic && value <= 0 ? x.from : x(value)));
   const [low, high, at] = [held(bar.low), held(bar.high), held(bar.value)];
   const parts = [
-    shape("rect", { class: "row", x: 0, y: top - 2, width: x.to + 20, height: ROW }),
-    shape("text", { class: "name", x: left - 10, y: middle + 4, "text-anchor": "end" }, fitted(bar.group.name, left - 14)),
+    shape("rect", { class: "row", x: 0, y: top - 2, width: x.to + 20, height: layout.row }),
+    barName(bar.group.name, top, middle, x, layout),
   ];
   if (from !== undefined) parts.push(shape("rect", { class: "amount", x: Math.min(at, x(from)), y: middle - 6, width: Math.abs(at - x(from)), height: 12 }));
   parts.push(shape("path", { class: "error", d: `M${low},${middle}H${high}M${low},${middle - 4}v8M${high},${middle - 4}v8` }));
   if (from === undefined) parts.push(shape("circle", { class: "dot", cx: at, cy: middle, r: 4 }));
   const node = shape("g", { class: `bar-row ${colourClass(series)}` }, ...parts);
   return withTip(node, [bar.group.name, `${kind.title}: ${intervalText(bar, kind.unit)}`]);
+}
+
+function barName(name, top, middle, x, { left, above }) {
+  if (above) return shape("text", { class: "name", x: 0, y: top + NAME - 4 }, fitted(name, x.to));
+  return shape("text", { class: "name", x: left - 10, y: middle + 4, "text-anchor": "end" }, name);
 }
 
 /** The section: its choices and a chart for each region shown. */

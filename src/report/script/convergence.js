@@ -105,7 +105,7 @@ function slopeGuide(lines, x, y) {
   const starts = lines.map((line) => line.points[0]);
   const from = starts.reduce((one, other) => (other.y < one.y ? other : one));
   const height = (at) => y(from.y * 0.62 * Math.sqrt(from.x / at));
-  const label = x.low * (x.high / x.low) ** 0.16;
+  const label = x.low * (x.high / x.low) ** 0.36;
   return shape("g", { class: "guide" },
     shape("line", { x1: x(x.low), y1: height(x.low), x2: x(x.high), y2: height(x.high) }),
     shape("text", { x: x(label) - 6, y: height(label) + 14, "text-anchor": "end" }, "slope −½"));
@@ -174,12 +174,4 @@ function drawConvergence(host, offered) {
   const quantities = anyGroupHas("bias") ? [quantity, BIAS] : [quantity];
   const width = plotWidth(host, quantities.length);
   host.replaceChildren(...quantities.map((each) => convergencePlot(each, width, { ...choice, guide: choice.guide && each !== BIAS })));
-}
-
-/** The width of each of so many plots: beside one another where there is room. */
-function plotWidth(host, many, least = 420, gap = 32) {
-  const room = host.clientWidth;
-  const columns = Math.max(1, Math.min(many, Math.floor((room + gap) / (least + gap))));
-  host.style.setProperty("--columns", columns);
-  return Math.floor((room - gap * (columns - 1)) / columns);
 }

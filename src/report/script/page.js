@@ -31,4 +31,5 @@ fillMaps();
 fillRuns();
 hideDeadLinks();
 closeWithEscape();
+drawForPaper();
 changed();

@@ -106,6 +106,29 @@ function withTip(node, lines) {
   return dress(node, { ...attributes, pointerenter: show, pointerleave: hideTip, focus: show, blur: hideTip });
 }
 
+/** A sheet's width in pixels, and the least of a plot on it: plots are drawn anew for paper. */
+const PAPER = { width: 700, least: 320 };
+let onPaper = false;
+
+/** The width of each of so many plots: beside one another where there is room. */
+function plotWidth(host, many, least = 420, gap = 32) {
+  const room = onPaper ? PAPER.width : host.clientWidth;
+  const wanted = onPaper ? PAPER.least : least;
+  const columns = Math.max(1, Math.min(many, Math.floor((room + gap) / (wanted + gap))));
+  host.style.setProperty("--columns", columns);
+  return Math.floor((room - gap * (columns - 1)) / columns);
+}
+
+/** Draws for paper before printing, and for the screen after it. */
+function drawForPaper() {
+  for (const [event, paper] of [["beforeprint", true], ["afterprint", false]]) {
+    addEventListener(event, () => {
+      onPaper = paper;
+      changed();
+    });
+  }
+}
+
 /** Draws anew whenever the host's width changes. */
 function drawToWidth(host, draw) {
   let width = 0;

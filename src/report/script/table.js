@@ -6,6 +6,9 @@
 /** Longer tables scroll by themselves, so that their heads stay in sight. */
 const MANY_ROWS = 40;
 
+/** Browsers take long to lay out more than this. */
+const MOST_ROWS = 2000;
+
 /** A table in a host; returns a function that fills it. */
 function makeTable(host, { name, columns, rows }) {
   const table = {
@@ -104,14 +107,19 @@ function fillBody(table) {
   const rows = shownRows(table);
   const columns = visibleColumns(table);
   table.tally.textContent = `${count(rows.length)} of ${count(table.rows().length)}`;
-  table.body.replaceChildren(...rows.map((row) => element("tr", {}, ...columns.map((column, at) => {
+  table.body.replaceChildren(...rows.slice(0, MOST_ROWS).map((row) => element("tr", {}, ...columns.map((column, at) => {
     const tag = at === 0 ? "th" : "td";
     return element(tag, { scope: at === 0 ? "row" : null, class: lookOf(column) }, column.cell(row));
   }))));
-  if (rows.length === 0) table.body.append(element("tr", {}, element("td", { colspan: columns.length, class: "none" }, "Nothing passes the filters.")));
+  if (rows.length === 0) table.body.append(wideRow(columns, "Nothing passes the filters."));
+  if (rows.length > MOST_ROWS) table.body.append(wideRow(columns, `${count(rows.length - MOST_ROWS)} more: filter to see them; the CSV has all.`));
 }
 
-/** What is shown, as RFC 4180 has it. */
+function wideRow(columns, text) {
+  return element("tr", {}, element("td", { colspan: columns.length, class: "none" }, text));
+}
+
+/** The rows that pass the filters, in the columns that are shown, as RFC 4180 has it. */
 function csvOf(table) {
   const columns = visibleColumns(table).filter((column) => column.csv);
   const quoted = (value) => {
