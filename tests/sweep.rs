@@ -222,6 +222,73 @@ fn mistakes_are_said_before_anything_is_made() {
     assert!(!at.join("out").exists());
 }
 
+/// What is written into the page, as the page reads it.
+fn report(folder: &Path) -> Value {
+    let page = fs::read_to_string(folder.join("out/report.html")).expect("a report");
+    assert!(
+        !page.contains("http://") && !page.contains("https://"),
+        "it asks for nothing outside"
+    );
+    let start = page.find("{\"title\"").expect("the data");
+    let mut values = serde_json::Deserializer::from_str(&page[start..]).into_iter::<Value>();
+    values.next().expect("the data").expect("JSON")
+}
+
+#[test]
+fn the_report_holds_the_groups_against_the_reference() {
+    let folder = folder();
+    let at = folder.path();
+    let reference = Command::new(env!("CARGO_BIN_EXE_lampray"))
+        .current_dir(at)
+        .args([
+            "render", "s.toml", "--device", "cpu", "-q", "-o", "r.exr", "-s", "4096", "--seed", "9",
+        ])
+        .status();
+    assert!(reference.expect("the program runs").success());
+    // One without bias, and one that a clamp darkens.
+    let swept = [
+        "--set",
+        "render.clamp=off,2",
+        "--set",
+        "render.samples=64",
+        "--seeds",
+        "4",
+        "--reference",
+        "r.exr",
+    ];
+    assert_eq!(code(at, &swept), 0);
+    let report = report(at);
+    assert_eq!(report["runs"].as_array().map(Vec::len), Some(8));
+    let groups = report["groups"].as_array().expect("groups");
+    let verdict = |group: &Value| {
+        group["regions"][0]["verdict"]
+            .as_str()
+            .unwrap_or_default()
+            .to_string()
+    };
+    assert_eq!(groups.len(), 2);
+    assert_ne!(verdict(&groups[0]), "different");
+    assert_eq!(verdict(&groups[1]), "different");
+    assert!(
+        groups[1]["regions"][0]["bias"]["high"]
+            .as_f64()
+            .is_some_and(|high| high < 0.0)
+    );
+    let first = report["findings"][0].as_str().unwrap_or_default();
+    assert!(
+        first.contains("is biased") && first.contains("too dark"),
+        "{first}"
+    );
+    // A reference of the sweep's own random numbers says nothing of bias.
+    assert_eq!(
+        code(
+            at,
+            &[&swept[..6], &["--reference", "out/table.csv"]].concat()
+        ),
+        65
+    );
+}
+
 #[test]
 fn a_scene_says_itself_what_to_sweep() {
     let folder = folder();

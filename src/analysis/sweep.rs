@@ -3,6 +3,7 @@
 use super::group::Group;
 use super::question::Question;
 use super::ratios::{self, Cost};
+use crate::compare::verdict::Outcome;
 use crate::error::{Error, Result};
 use crate::report::data::Interval;
 
@@ -20,6 +21,7 @@ pub struct Analysis {
 /// What a group's error costs in a region. The ratios are of the noise alone where there is no reference.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Against {
+    /// None unless the verdict finds a difference.
     pub crossing: Option<Interval>,
     pub efficiency: Option<Interval>,
     /// Error at equal time, over the baseline's.
@@ -86,8 +88,12 @@ impl Against {
             compare(of, cost(baseline))
         };
         let samples = groups[group].samples;
+        // A bias that the verdict does not see may be one of the many numbers here that are clear of 0 by
+        // chance.
+        let verdict = groups[group].regions[region].verdict.as_ref();
+        let biased = verdict.is_some_and(|verdict| verdict.outcome == Outcome::Different);
         Self {
-            crossing: has_reference
+            crossing: biased
                 .then(|| ratios::crossing(of.energy, samples))
                 .flatten(),
             efficiency: has_reference.then(|| ratios::efficiency(of)).flatten(),
