@@ -225,8 +225,11 @@ fn mistakes_are_said_before_anything_is_made() {
 /// What is written into the page, as the page reads it.
 fn report(folder: &Path) -> Value {
     let page = fs::read_to_string(folder.join("out/report.html")).expect("a report");
+    // The names of SVG and its like are addresses that nobody fetches.
+    let without_names = page.replace("http://www.w3.org/", "");
+    let addresses = ["http://", "https://", "//cdn"];
     assert!(
-        !page.contains("http://") && !page.contains("https://"),
+        !addresses.iter().any(|part| without_names.contains(part)),
         "it asks for nothing outside"
     );
     let start = page.find("{\"title\"").expect("the data");
