@@ -13,6 +13,8 @@
 //!
 //! any EXR, PNG ─RasterFile→ Pair ─┬→ metrics, limits, maps ─┬→ Comparison → text, JSON, exit code
 //!                                 └→ verdict ───────────────┘
+//!
+//! grid ─sweep→ runs.jsonl, pictures ─analysis→ ReportData ─report→ report.html
 //! ```
 //!
 //! One direction: a room knows the rooms before it, never those after it.
@@ -30,7 +32,6 @@
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`sweep`] | a grid of renders: axes, plan, ledger, table |
 //! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
-//! | [`report`] | what a report of a sweep shows |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
 //! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
