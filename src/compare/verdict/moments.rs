@@ -158,7 +158,7 @@ impl<'a> Sides<'a> {
     ///
     /// Where light comes by rare bright paths, a few samples may have met none of them, and then say
     /// with one voice that it is dark and that they are sure. So each picture's variance is taken to
-    /// be at least what the other picture makes one expect (see [`Whereabouts::expected`]).
+    /// be at least what the other picture makes one expect (`vicinity.rs` says how).
     ///
     /// Of paired pictures, the spread over the tile's pixels counts; but no less than the share of
     /// that variance which is left over the whole picture, for a few pixels may not have met what

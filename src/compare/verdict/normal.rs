@@ -36,7 +36,7 @@ pub fn from_student(t: f64, freedom: f64) -> f64 {
 }
 
 /// The number that Student's t with `freedom` degrees is below with probability `p`: the inverse of
-/// [`from_student`], too large by 1.2 % at three degrees and p = 0.975, by less from there on, and never
+/// `from_student`, too large by 1.2 % at three degrees and p = 0.975, by less from there on, and never
 /// too small there.
 pub fn student(p: f64, freedom: f64) -> f64 {
     let z = quantile(p);
