@@ -37,6 +37,12 @@
 //! and fall together; how closely is not in the files, so they are taken as fully correlated, and the
 //! error of their mean is the mean of their errors. By Cauchy's inequality that is never too small.
 //!
+//! The tests hold every interval against 2000 made-up sweeps of 400 pixels: they cover in 93 to 97 % of them.
+//! Where there is no bias and pixels are few, those of bias^2 and MSE are too wide: 97 % with 400 and
+//! 98 % with a hundred, since their variance is estimated from the same squares as they are. Where N* is barely clear, it is
+//! stated too low, as all is that is stated only where it is clear. Noise of rare bright paths, which
+//! a few hundred samples have not met, is in no interval.
+//!
 //! Ratios and efficiencies are products of positive numbers: their logarithm is nearer to normal than they
 //! are, and A over B then has the interval of B over A turned round. The delta method (Oehlert 1992) is
 //! taken rather than a bootstrap over seeds, which with the three to ten seeds of a sweep has too few

@@ -1,4 +1,4 @@
-//! Intervals of 95 % hold the truth in 93 to 97 % of 2000 sweeps.
+//! Intervals of 95 % hold the truth in 93 to 97 % of 2000 sweeps; a few, named below, in more.
 
 use super::figures::{FIGURES, Figure};
 use super::worlds::{Change, Estimator, Noise, World};
@@ -85,15 +85,27 @@ fn failing(world: &World, first: u64) -> Vec<String> {
                 figure.0,
                 100.0 * share
             );
-            // The weights of relMSE are known to second order only; where that is not enough they are
-            // to make it too wide.
-            let wide = figure.0 == "relMSE" && world.reference_samples < 200 && share > 0.93;
-            if !RIGHT.contains(&share) && !wide {
+            let most = if may_be_wide(world, group, figure.0) {
+                0.99
+            } else {
+                *RIGHT.end()
+            };
+            if !(*RIGHT.start()..=most).contains(&share) {
                 failing.push(format!("{} of group {group}: {share}", figure.0));
             }
         }
     }
     failing
+}
+
+/// Intervals that are to be too wide rather than too narrow: of squares where there is no bias, whose
+/// variance is estimated from the same squares; and with a poor reference, whose noise the groups
+/// share, and relMSE knows to second order only.
+fn may_be_wide(world: &World, group: usize, figure: &str) -> bool {
+    let squares = ["bias^2", "MSE", "relMSE", "efficiency"].contains(&figure);
+    let shared = ["relMSE", "equal time", "equal error"].contains(&figure);
+    let unbiased = world.estimators[group].bias == 0.0;
+    (squares && unbiased) || (shared && world.reference_samples < 200)
 }
 
 fn assert_covers(world: &World, first: u64) {
