@@ -110,10 +110,11 @@ export class Page {
 
   /** Brings an element into sight; returns a place in it, in shares of its box. */
   async place(selector, x = 0.5, y = 0.5) {
-    const box = await this.run((each) => {
+    const box = await this.run(async (each) => {
       const node = document.querySelector(each);
       if (!node) throw new Error(`nothing is ${each}`);
       node.scrollIntoView({ block: "center", inline: "center", behavior: "instant" });
+      await new Promise((done) => requestAnimationFrame(done));
       const { left, top, width, height } = node.getBoundingClientRect();
       return { left, top, width, height };
     }, selector);
@@ -128,6 +129,15 @@ export class Page {
     await this.mouse("mousePressed", at, { clickCount: 1, buttons: 1 });
     await this.mouse("mouseReleased", at, { clickCount: 1 });
     await this.settle();
+  }
+
+  /** Waits until a text is there; fails when it does not come. */
+  async until(selector, text) {
+    for (let tries = 0; tries < 100; tries++) {
+      if ((await this.text(selector)) === text) return;
+      await this.settle();
+    }
+    throw new Error(`${selector} never said ${text}`);
   }
 
   async hover(selector, x, y) {

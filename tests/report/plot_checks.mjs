@@ -84,10 +84,22 @@ async function bars(page) {
   equal("one region", await page.many("#bars figure"), 1);
 }
 
+/** How many maps have paint in their middle. */
+export function paintedMaps(page) {
+  return page.run(() => [...document.querySelectorAll("#map-grid canvas")].filter((canvas) => {
+    const { width, height } = canvas;
+    return canvas.getContext("2d").getImageData(width / 2, height / 2, 1, 1).data[3] > 0;
+  }).length);
+}
+
 async function maps(page) {
+  const height = () => page.run(() => document.querySelector("#maps").offsetHeight);
+  await page.run(() => scrollTo(0, 0));
+  await page.go(await page.run(() => location.href));
+  const before = [await height(), await paintedMaps(page)];
   await page.place("#maps");
   await page.run(() => new Promise((done) => setTimeout(done, 300)));
-  equal("a map of every group", await page.many("#map-grid canvas"), 20);
+  equal("maps are painted when they come near, and nothing moves", [before, await height(), await paintedMaps(page)], [[before[0], 0], before[0], 20]);
   for (const [kind, legends] of [["deviation_image", 1], ["mean_image", 0], ["bias_image", 1]]) {
     await page.choose("#map-kind", kind);
     equal(`maps: ${kind}`, [await page.many("#map-grid canvas"), await page.many("#map-legend .ramp")], [20, legends]);

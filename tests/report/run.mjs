@@ -8,7 +8,7 @@ import { page as assemble } from "./assemble.mjs";
 import { launch, Page } from "./browser.mjs";
 import { equal, holds, verdict } from "./check.mjs";
 import { headChecks } from "./head_checks.mjs";
-import { plotChecks } from "./plot_checks.mjs";
+import { paintedMaps, plotChecks } from "./plot_checks.mjs";
 import { shoot } from "./shots.mjs";
 import { synthetic } from "./synthetic.mjs";
 import { tableChecks } from "./table_checks.mjs";
@@ -70,6 +70,31 @@ async function hostile(browser, { url }) {
   await blameless("hostile", page);
 }
 
+async function sparse(browser, { url }) {
+  const page = await Page.open(browser, url, { dark: true });
+  equal("the dark system makes a dark page", await page.run(() => getComputedStyle(document.body).colorScheme), "light dark");
+  holds("numbers stand without intervals", (await page.text("#group-table tbody tr td:nth-of-type(3)")).endsWith("%"), await page.text("#group-table tbody tr"));
+  equal("wide pictures keep their shape", await page.run(() => {
+    const { width, height } = document.querySelector("#stage canvas").getBoundingClientRect();
+    return Math.round((4 * width) / height) / 4;
+  }), 4);
+  equal("no coordinate is missing", await page.run(() => [...document.querySelectorAll("svg *")].filter((node) => /NaN|Infinity/.test(node.outerHTML)).length), 0);
+  await blameless("sparse", page);
+}
+
+/** On paper: no controls, long tables whole, maps drawn though nobody saw them. */
+async function paper(browser, { url }) {
+  const page = await Page.open(browser, url);
+  await page.send("Page.printToPDF", {});
+  equal("maps are painted for paper", await paintedMaps(page), 20);
+  holds("plots are for the screen again", (await page.run(() => document.querySelector("#bars svg").viewBox.baseVal.width)) > 1000);
+  await page.send("Emulation.setEmulatedMedia", { media: "print" });
+  const shown = await page.run(() => [...document.querySelectorAll(".bar, .tools, .slots, #keys, main button:not(.chip, .map, thead button), select")].filter((each) => each.checkVisibility()).length);
+  equal("controls on paper", shown, 0);
+  equal("the long table is whole", await page.run(() => getComputedStyle(document.querySelector(".scroll.long")).maxHeight), "none");
+  await blameless("paper", page);
+}
+
 async function seedShown(page) {
   await page.click("#run-table summary");
   const box = await page.run(() => [...document.querySelectorAll("#run-table .menu label")].findIndex((label) => label.textContent.trim() === "Seed") + 1);
@@ -91,6 +116,8 @@ try {
   await phone(browser, full);
   await unreferenced(browser, written("unreferenced"));
   await hostile(browser, written("hostile"));
+  await sparse(browser, written("sparse"));
+  await paper(browser, full);
   await empty(browser, written("empty"));
   if (shots) {
     mkdirSync(shots, { recursive: true });

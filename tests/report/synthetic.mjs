@@ -1,5 +1,5 @@
 // Made-up sweeps, the same at every call: what the page is tested with.
-// node synthetic.mjs [full|unreferenced|hostile|empty] > data.json
+// node synthetic.mjs [full|unreferenced|hostile|sparse|empty] > data.json
 import { normal, penumbra, picture, room, stream } from "./picture.mjs";
 
 const HOSTILE = ["</script><b>bold</b>", "<!--<script>alert(1)", "\"quoted\" & 'single', comma", "=1+1\u2028\\u003c"];
@@ -150,13 +150,29 @@ function hostile() {
   return data;
 }
 
+/** One run a group: no interval has ends; wide pictures; a group of which nothing is known. */
+function sparse() {
+  const data = full();
+  const open = (interval) => interval && { value: interval.value, low: null, high: null };
+  for (const group of data.groups) {
+    group.seconds = open(group.seconds);
+    for (const region of group.regions) {
+      for (const key of ["mean", "bias", "variance", "mse", "relmse", "efficiency", "equal_time", "equal_error"]) region[key] = open(region[key]);
+    }
+  }
+  Object.assign(data.groups[3], { seconds: open({ value: null }), regions: [], mean_image: null, bias_image: null, deviation_image: null });
+  data.axes = data.axes.slice(0, 1);
+  for (const image of data.images) Object.assign(image, { width: 2 * SIZE, height: SIZE / 2 });
+  return data;
+}
+
 function empty() {
   return { title: "", question: "", command: "", version: "", axes: [], runs: [], groups: [], regions: [], reference: null, images: [], findings: [] };
 }
 
 /** JSON of a made-up sweep, as the Rust side writes it. */
 export function synthetic(kind) {
-  const makers = { full, unreferenced: () => full({ referenced: false }), hostile, empty };
+  const makers = { full, unreferenced: () => full({ referenced: false }), hostile, sparse, empty };
   return JSON.stringify(makers[kind]()).replace(/"@(\d+)@"/g, "$1");
 }
 

@@ -85,12 +85,14 @@ async function csv(page) {
   await page.go(await page.run(() => location.href));
   await page.type("#group-table input[type=search]", "gaussian");
   await page.click("#group-table .copy-csv");
+  await page.until("#group-table .copy-csv", "Copied");
   const lines = (await page.run(() => navigator.clipboard.readText())).split(/\r?\n/).filter(Boolean);
   equal("CSV: the shown rows and a head", lines.length, 6);
   holds("CSV: intervals have columns of their own", lines[0].includes("Bias,Bias low,Bias high"), lines[0]);
   holds("CSV: names with commas are quoted", lines[1].startsWith('"gaussian, 4 samples",4,'), lines[1]);
   await page.type("#group-table input[type=search]", "");
   await page.click("#run-table .copy-csv");
+  await page.until("#run-table .copy-csv", "Copied");
   const runs = (await page.run(() => navigator.clipboard.readText())).split(/\r?\n/).filter(Boolean);
   equal("CSV: all runs", runs.length, 201);
   holds("CSV: axes by their paths", runs[0].includes("light.sampler,render.samples,render.seed"), runs[0]);

@@ -5,11 +5,27 @@ function parseExact(text) {
   return JSON.parse(text.replace(/("(?:[\w.]*\.)?(?:seed|paths|rays)":)(\d{16,})/g, '$1"$2"'));
 }
 
+/** An interval whose ends are numbers: JSON has no infinity, so open ends arrive as null. */
+function closed(interval) {
+  if (!interval || interval.value === null) return null;
+  const { value, low, high } = interval;
+  return low === null || high === null ? { value, low: value, high: value } : interval;
+}
+
+/** Closes the intervals of a group: one run alone has no spread. */
+function closeIntervals(group) {
+  group.seconds = closed(group.seconds) ?? { value: null, low: null, high: null };
+  for (const region of group.regions) {
+    for (const [key, found] of Object.entries(region)) if (found !== null && typeof found === "object") region[key] = closed(found);
+  }
+}
+
 /** Reads the data and lets go of their text, which may be many megabytes. */
 function takeData() {
   const holder = document.getElementById("data");
   const data = parseExact(holder.textContent);
   holder.remove();
+  data.groups.forEach(closeIntervals);
   return data;
 }
 

@@ -10,30 +10,39 @@ function hasImage(group, kind) {
   return group[kind.key] !== null && group[kind.key] !== undefined;
 }
 
-/** A map and what was found in the chosen region; pressing it shows it in the viewer. */
-function mapFigure(group, kind, range) {
+/** Pixels of the screen that a pixel of a map takes, so that a region's line is thin on it. */
+function enlargement(image) {
+  return Math.max(1, Math.ceil(320 / image.width));
+}
+
+/** A map still without paint, and what was found in the chosen region; pressing it shows it in the viewer. */
+function mapFigure(group, kind) {
   const index = group[kind.key];
   const image = data.images[index];
-  const canvas = element("canvas", { width: image.width, height: image.height });
-  const most = Math.max(1, Math.ceil(320 / image.width));
-  [canvas.width, canvas.height] = [image.width * most, image.height * most];
-  const context = canvas.getContext("2d");
-  context.imageSmoothingEnabled = false;
-  context.drawImage(paintedImage(index, 0, range), 0, 0, canvas.width, canvas.height);
-  drawRegion(context, 0, 0, most);
+  const times = enlargement(image);
+  const canvas = element("canvas", { width: image.width * times, height: image.height * times });
   const open = button("", () => viewPicture(index), { "aria-label": `View ${image.name}`, class: "map" });
   open.append(canvas);
   const found = kind.caption(result(group, chosen.region));
   return element("figure", {}, open, element("figcaption", {}, group.name, found ? element("small", {}, found) : null));
 }
 
-function drawMaps(offered) {
-  const kind = offered.find((each) => each.key === byId("map-kind").value);
+function paintMap(canvas, index, range) {
+  const context = canvas.getContext("2d");
+  context.imageSmoothingEnabled = false;
+  context.drawImage(paintedImage(index, 0, range), 0, 0, canvas.width, canvas.height);
+  drawRegion(context, 0, 0, enlargement(data.images[index]));
+}
+
+/** The maps of a kind; before they are near they take their place without paint, so nothing moves later. */
+function drawMaps(kind, near) {
   const groups = keptGroups().filter((group) => hasImage(group, kind));
   const indices = groups.map((group) => group[kind.key]);
   const scale = indices.length > 0 ? scaleOf(data.images[indices[0]].kind) : undefined;
-  const range = scale ? sharedRange(indices) : 1;
-  byId("map-grid").replaceChildren(...groups.map((group) => mapFigure(group, kind, range)));
+  const range = scale && near ? sharedRange(indices) : NaN;
+  const figures = groups.map((group) => mapFigure(group, kind));
+  if (near) figures.forEach((figure, at) => paintMap(figure.querySelector("canvas"), indices[at], range));
+  byId("map-grid").replaceChildren(...figures);
   byId("map-legend").replaceChildren(...(scale ? [colourLegend(scale, range, kind.legend)] : []));
 }
 
@@ -45,7 +54,7 @@ function fillMaps() {
     return;
   }
   let near = false;
-  const draw = () => { if (near) drawMaps(offered); };
+  const draw = () => drawMaps(offered.find((kind) => kind.key === byId("map-kind").value), near);
   const come = () => {
     if (near) return;
     near = true;
