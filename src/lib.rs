@@ -28,8 +28,8 @@
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
-//! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
 //! | [`report`] | what a report of a sweep shows |
+//! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
 //! | `panics` | panics of other people's code, caught where they are called |
