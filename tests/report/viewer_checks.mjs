@@ -118,6 +118,12 @@ async function zooming(page) {
   for (const key of ["ArrowUp", "ArrowRight", "ArrowDown"]) await page.key(key);
   equal("the arrows lead back to the column", await columnAtLeft(page), leftmost);
   equal("and to the picture", await drawn(page), dragged);
+  await zoomByButtons(page);
+  await inStep(page);
+}
+
+/** Keys and buttons, from twice the size to the whole. */
+async function zoomByButtons(page) {
   await page.key("+");
   equal("+ zooms in", await zoom(page), "2.5×");
   await page.key("-");
@@ -133,7 +139,6 @@ async function zooming(page) {
   await page.key("+");
   await page.key("0");
   equal("0 fits", await zoom(page), "1.0×");
-  await inStep(page);
 }
 
 /** The pixel that is read, in words. */
