@@ -96,19 +96,34 @@ async function zooming(page) {
   await page.wheel(CANVAS, -300, 0.25, 0.25);
   equal("the wheel scrolls the page where no picture was pressed", await zoom(page), "1.0×");
   await page.click(CANVAS, 0.25, 0.25);
+  const under = await place(page);
   await page.wheel(CANVAS, -300, 0.25, 0.25);
   equal("the wheel zooms", await zoom(page), "2.0×");
+  await page.hover(CANVAS, 0.255, 0.255);
+  equal("the pixel under the pointer stays there", await place(page), under);
   const zoomed = await drawn(page);
   holds("the picture is larger", zoomed !== whole);
+  await page.hover(CANVAS, 0.7, 0.7);
+  const held = await place(page);
   await page.drag(CANVAS, [0.7, 0.7], [0.4, 0.4]);
-  const dragged = await drawn(page);
-  holds("dragging pans", dragged !== zoomed);
+  equal("the pixel that is dragged goes with the pointer", await place(page), held);
+  holds("dragging pans", (await drawn(page)) !== zoomed);
   await page.focus("#stage");
+  const leftmost = await columnAtLeft(page);
+  const dragged = await drawn(page);
   await page.key("ArrowLeft");
   const stepped = await drawn(page);
   holds("an arrow pans", stepped !== dragged);
+  holds("to where it points", (await columnAtLeft(page)) < leftmost, leftmost);
   for (const key of ["ArrowUp", "ArrowRight", "ArrowDown"]) await page.key(key);
-  equal("the arrows lead back", await drawn(page), dragged);
+  equal("the arrows lead back to the column", await columnAtLeft(page), leftmost);
+  equal("and to the picture", await drawn(page), dragged);
+  await zoomByButtons(page);
+  await inStep(page);
+}
+
+/** Keys and buttons, from twice the size to the whole. */
+async function zoomByButtons(page) {
   await page.key("+");
   equal("+ zooms in", await zoom(page), "2.5×");
   await page.key("-");
@@ -124,7 +139,17 @@ async function zooming(page) {
   await page.key("+");
   await page.key("0");
   equal("0 fits", await zoom(page), "1.0×");
-  await inStep(page);
+}
+
+/** The pixel that is read, in words. */
+function place(page) {
+  return page.text("#readout thead th");
+}
+
+/** The column of pixels at the left edge of the first picture. */
+async function columnAtLeft(page) {
+  await page.hover(CANVAS, 0.01, 0.5);
+  return Number((await place(page)).match(/x (\d+)/)[1]);
 }
 
 /** Both panes show the same part: with the same picture in both, they are equal when zoomed. */
@@ -204,10 +229,11 @@ async function slider(page) {
 async function difference(page) {
   await mode(page, "difference");
   equal("the difference has a legend", await page.text("#scales p"), "A − B, mean of the channels");
-  const ends = await page.text("#scales .ends");
+  const end = async () => Number(await page.text("#scales .ends span:last-child"));
+  const widest = await end();
   await page.focus("#stage");
-  await page.key("]");
-  holds("exposure narrows its scale", ends !== (await page.text("#scales .ends")));
+  for (let stops = 0; stops < 4; stops++) await page.key("]");
+  holds("a stop halves its scale", Math.abs((await end()) / widest - 0.5) < 0.05, [widest, await end()]);
   await page.click("#exposure-reset");
   const first = await page.run(() => document.querySelector(".slot select").value);
   await page.choose(".slot:nth-child(2) select", first);

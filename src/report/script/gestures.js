@@ -61,8 +61,7 @@ function followFingers(canvas, { moved, pressed, read }) {
     if (fingers.size === 1) travelled = 0;
   });
   canvas.addEventListener("pointermove", (event) => {
-    read(event);
-    if (!fingers.has(event.pointerId)) return;
+    if (!fingers.has(event.pointerId)) return read(event);
     const before = spreadOf(fingers);
     fingers.set(event.pointerId, event);
     const after = spreadOf(fingers);
@@ -70,6 +69,7 @@ function followFingers(canvas, { moved, pressed, read }) {
     travelled += Math.hypot(after.clientX - before.clientX, after.clientY - before.clientY) + Math.abs(after.apart - before.apart);
     panBy(to[0] - from[0], to[1] - from[1]);
     if (fingers.size === FINGERS && before.apart > 0) zoomAt(to[0], to[1], after.apart / before.apart);
+    read(event);
     moved();
   });
   const lift = (event) => {
