@@ -51,6 +51,7 @@ async function connect(address) {
   };
   const send = (method, params = {}, sessionId = undefined) => new Promise((answered, failed) => {
     waiting.set(++last, { answered, failed });
+    setTimeout(() => failed(new Error(`no answer to ${method}`)), PATIENCE_MS).unref();
     socket.send(JSON.stringify({ id: last, method, params, sessionId }));
   });
   send.on = (hear) => hearers.push(hear);
