@@ -12,8 +12,12 @@ use serde_json::{Map, Value};
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Pictures of single runs that a report shows; those of groups come besides.
+/// Pictures of single runs that a report shows, and the bytes that they may take; those of groups come
+/// besides.
 const MOST_IMAGES: usize = 64;
+const MOST_BYTES: usize = 8 << 20;
+/// What a pixel takes in the page: three half floats in base64.
+const PIXEL: usize = 8;
 
 /// What the report is about.
 pub struct About<'a> {
@@ -219,7 +223,8 @@ fn collect(
         let picture = picture(folder, entries[number])?;
         let row = &mut data.runs[number];
         runs.add(&picture, row.seconds)?;
-        if data.images.len() < MOST_IMAGES {
+        let room = (MOST_BYTES / (PIXEL * picture.pixels())).min(MOST_IMAGES);
+        if data.images.len() < room.max(1) {
             row.image = Some(data.images.len());
             let name = format!("{}, seed {}", group.name, row.seed);
             data.images.push(picture_image(&name, &picture));
