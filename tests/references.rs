@@ -10,7 +10,7 @@ use lampray::pack::Rect;
 use lampray::scene::{Assignment, Scene};
 use support::bench::{Bench, benches};
 
-/// Of one comparison; there are 16 of pictures that should be the same.
+/// Of one comparison; there are 14 of pictures that should be the same.
 const TERMS: Terms = Terms {
     alpha: 0.001,
     margin: 0.02,

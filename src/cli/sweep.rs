@@ -89,6 +89,20 @@ impl Command {
         if self.dry_run {
             return self.foretell(&base, &plan, device.as_deref_mut(), output);
         }
+        // Read before the runs: a reference that is not there is not to be found out after hours.
+        let about = About {
+            title: self
+                .scene
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            command: command_line(),
+            grid: &grid,
+            ids: plan.runs.iter().map(|run| run.id.as_str()).collect(),
+            regions: regions(&base)?,
+            reference: self.reference()?,
+        };
         let mut sweep = Sweep::new(&base, &plan, &self.output, self.rules()?)?;
         let mut shown = None;
         let mut watch = |progress: Progress| {
@@ -109,19 +123,6 @@ impl Command {
         let summary = sweep.go(&mut open, &mut watch)?;
         let entries = sweep.entries()?;
         self.write("table.csv", &table(&entries))?;
-        let about = About {
-            title: self
-                .scene
-                .file_stem()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned(),
-            command: command_line(),
-            grid: &grid,
-            ids: plan.runs.iter().map(|run| run.id.as_str()).collect(),
-            regions: regions(&base)?,
-            reference: self.reference()?,
-        };
         let data = report_data(&self.output, &entries, about)?;
         self.write("report.html", &page(&data)?)?;
         self.conclude(summary, output)

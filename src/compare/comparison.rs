@@ -71,7 +71,8 @@ pub struct Comparison {
 /// Compares two pictures.
 ///
 /// # Errors
-/// [`Error::Usage`] for a metric that the pictures have no value of; [`Error::Internal`] never.
+/// [`Error::Usage`] for a metric that the pictures have no value of, for pixels that are not finite unless
+/// they are allowed, and for variances or counts that cannot be.
 pub fn compare(study: &Study, wishes: &Wishes) -> Result<Comparison> {
     let pair = study.pair;
     let non_finite = study.survey.non_finite;

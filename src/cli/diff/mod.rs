@@ -168,13 +168,7 @@ impl Command {
             self.check_outputs(reference, test)?;
             // A reference that cannot be read would fail everybody from now on.
             RasterFile::open(test)?.read()?;
-            bless(reference, test)?;
-            let now = format!(
-                "{} is now a copy of {}",
-                reference.display(),
-                test.display()
-            );
-            remark(&now, output);
+            bless(reference, test, output)?;
             if output.json {
                 print_json(&serde_json::json!({ "a": reference, "b": test, "blessed": true }))?;
             }
@@ -215,15 +209,7 @@ impl Command {
         }
         match self.bless {
             Some(when) if when == Bless::All || code == DIFFERENT => {
-                bless(reference, test)?;
-                remark(
-                    &format!(
-                        "{} is now a copy of {}",
-                        reference.display(),
-                        test.display()
-                    ),
-                    output,
-                );
+                bless(reference, test, output)?;
                 Ok(SAME)
             }
             _ => Ok(code),
@@ -374,10 +360,13 @@ fn remark(text: &str, output: Output) {
 }
 
 /// Copies the test over the reference, as whole as any output.
-fn bless(reference: &Path, test: &Path) -> Result<()> {
+fn bless(reference: &Path, test: &Path, output: Output) -> Result<()> {
     let bytes = fs::read(test).map_err(|source| Error::Input {
         path: test.into(),
         source,
     })?;
-    Place::prepare(reference)?.write(|sink| sink.write_all(&bytes))
+    Place::prepare(reference)?.write(|sink| sink.write_all(&bytes))?;
+    let (reference, test) = (reference.display(), test.display());
+    remark(&format!("{reference} is now a copy of {test}"), output);
+    Ok(())
 }
