@@ -73,6 +73,7 @@ pub mod compare;
 pub mod cpu;
 pub mod device;
 pub mod error;
+pub mod figures;
 pub mod film;
 pub mod gpu;
 pub mod knobs;

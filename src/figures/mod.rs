@@ -1,0 +1,5 @@
+//! The paper's experiments, read from what sweeps wrote: as published, and corrected.
+
+mod figure;
+
+pub use figure::*;
