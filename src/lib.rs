@@ -33,6 +33,7 @@
 //! | [`sweep`] | a grid of renders: axes, plan, ledger, table |
 //! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
 //! | [`calibrate`] | limits that are measured: renders and compares |
+//! | [`theory`] | closed forms and quadratures of the paper's samplers and weights |
 //! | [`points`] | the samplers alone, as data or as a plot |
 //! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
@@ -86,5 +87,6 @@ pub mod report;
 pub mod scene;
 pub mod shader;
 pub mod sweep;
+pub mod theory;
 
 pub use error::{Error, Result};

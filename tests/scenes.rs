@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use support::gate::MOST_ERRORS;
 
-const SCENES: [&str; 9] = [
+const SCENES: [&str; 11] = [
     "cornell",
     "cornell-large-lamp",
     "cornell-small-lamp",
@@ -21,6 +21,8 @@ const SCENES: [&str; 9] = [
     "many-lamps",
     "montelight-complex",
     "montelight-simple",
+    "one-lamp",
+    "penumbra",
     "three-balls",
 ];
 

@@ -4,59 +4,7 @@
 
 use crate::support::bench::benches;
 use crate::support::gate::{Case, Family, Form};
-use crate::support::quadrature::integrate;
-use std::f64::consts::PI;
-
-#[derive(Clone, Copy, Debug)]
-enum Law {
-    /// `uniform-angles` with the pole along the line to the lamp.
-    PoleToward,
-    /// `uniform-angles` with the pole across it.
-    PoleSideways,
-    /// `inverse-cosine` and `gaussian`.
-    Area,
-    Cone,
-}
-
-fn solid_angle(s: f64, distance: f64) -> f64 {
-    2.0 * PI * (1.0 - (1.0 - (s / distance).powi(2)).max(0.0).sqrt())
-}
-
-/// Cosine at the face times weight for the lamp's point at height `mu`, the cosine between
-/// its normal and the way from face to lamp. The lamp's centre is at distance 1, straight above.
-fn weighted(q: f64, s: f64, mu: f64) -> f64 {
-    let distance = (1.0 + 2.0 * q * mu + q * q).sqrt();
-    (1.0 + q * mu) / distance * solid_angle(s, distance)
-}
-
-/// The same for a direction of the cone, at cosine `c` from its axis: it meets the near side.
-fn weighted_direction(q: f64, s: f64, c: f64) -> f64 {
-    let half_chord = (q * q - (1.0 - c * c)).max(0.0).sqrt();
-    c * solid_angle(s, c - half_chord)
-}
-
-/// Expected direct light over the truth pi q^2.
-fn ratio(law: Law, q: f64, s: f64) -> f64 {
-    let point = |mu: f64| weighted(q, s, mu);
-    let mean = match law {
-        Law::PoleToward => integrate(0.0, PI, 400, |phi| point(phi.cos())) / PI,
-        // mu = sin(phi) cos(theta), phi and theta even.
-        Law::PoleSideways => {
-            integrate(0.0, PI, 100, |phi| {
-                integrate(0.0, PI, 100, |theta| point(phi.sin() * theta.cos())) / PI
-            }) / PI
-        }
-        Law::Area => 0.5 * integrate(-1.0, 1.0, 400, point),
-        Law::Cone => {
-            let edge = (1.0 - q * q).sqrt();
-            // c = edge + x^2 smooths the root at the cone's rim.
-            let widest = (1.0 - edge).sqrt();
-            let rim = |x: f64| 2.0 * x * weighted_direction(q, s, edge + x * x);
-            integrate(0.0, widest, 400, rim) / (1.0 - edge)
-        }
-    };
-    mean / (PI * q * q)
-}
+use lampray::theory::{Law, literal_ratio as ratio};
 
 /// Radius over distance of the base code's large lamp, seen from a wall.
 const ROOM: f64 = 8.5 / 49.5;

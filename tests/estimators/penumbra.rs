@@ -1,75 +1,34 @@
 //! A far lamp behind a straight edge: the share of it that a literal estimator sees.
 //!
-//! The paper's weight with its test of the *object* takes each drawn point of the sphere for the
-//! direction to it, so that the share is that of the drawn points, front and back, whose
-//! directions are free. With h in [-1, 1] the edge's place on the disc of a far lamp, free below it:
-//! - the truth, and every estimator that divides by its density: 1/2 + (h sqrt(1 - h^2) + asin h) / pi;
-//! - even by area: (1 + h) / 2, for a sphere's area between two planes is that of its height (Archimedes);
-//! - both angles even, the edge moving along the pole: 1/2 + asin(h) / pi;
-//! - both angles even, the pole along the edge or toward the face: 1/2 + the integral from 0 to h of
-//!   (2 / pi^2) K(sqrt(1 - x^2)), K the complete elliptic integral of the first kind.
+//! `theory::share` says what each law of points makes of it.
 //!
 //! The cone draws near points alone, so that the literal weight of its samples is too large by 4 q / 3 of
 //! itself: it has no column among the literal ones.
 
 use crate::support::bench::benches;
 use crate::support::gate::{Case, Family, Form};
-use crate::support::quadrature::integrate;
-use std::f64::consts::{FRAC_PI_2, PI};
+use lampray::theory::{Drawn, share};
+use std::f64::consts::PI;
 
 /// Radius over distance. What a far lamp's forms leave out is of the order of q^2: 3e-5, a thirtieth
 /// of the standard errors here.
 const Q: f64 = 0.005;
 const HEIGHT: f64 = 2.0;
 
-/// Which points of the lamp are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Law {
-    Truth,
-    Area,
-    Along,
-    Across,
-}
+const LAWS: [Drawn; 4] = [Drawn::Truth, Drawn::Area, Drawn::Along, Drawn::Across];
+const LITERAL: [Drawn; 3] = [Drawn::Area, Drawn::Along, Drawn::Across];
 
-const LAWS: [Law; 4] = [Law::Truth, Law::Area, Law::Along, Law::Across];
-const LITERAL: [Law; 3] = [Law::Area, Law::Along, Law::Across];
-
-/// K(k) by the arithmetic-geometric mean (Gauss): pi / (2 agm(1, sqrt(1 - k^2))).
-fn elliptic(complement: f64) -> f64 {
-    let (mut a, mut b) = (1.0, complement);
-    while (a - b).abs() > 1e-15 * a {
-        (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
-    }
-    FRAC_PI_2 / a
-}
-
-impl Law {
-    fn share(self, h: f64) -> f64 {
-        match self {
-            Law::Truth => 0.5 + (h * (1.0 - h * h).sqrt() + h.asin()) / PI,
-            Law::Area => 0.5 * (1.0 + h),
-            Law::Along => 0.5 + h.asin() / PI,
-            // x = y^4 tames the logarithm at 0; the modulus sqrt(1 - x^2) has the complement x.
-            Law::Across => {
-                let density = |y: f64| 4.0 * y.powi(3) * elliptic(y.powi(4));
-                let half = integrate(0.0, h.abs().powf(0.25), 200, density);
-                0.5 + h.signum() * 2.0 / (PI * PI) * half
-            }
-        }
-    }
-
-    /// The knobs that draw so.
-    fn ways(self) -> Vec<(&'static str, &'static str)> {
-        match self {
-            Law::Truth => vec![("cone", "[0, 0, 1]")],
-            Law::Area => vec![("inverse-cosine", "[1, 0, 0]"), ("gaussian", "receiver")],
-            Law::Along => vec![("uniform-angles", "[1, 0, 0]")],
-            Law::Across => vec![
-                ("uniform-angles", "[0, 0, 1]"),
-                ("uniform-angles", "[0, 1, 0]"),
-                ("uniform-angles", "receiver"),
-            ],
-        }
+/// The knobs that draw so.
+fn ways(drawn: Drawn) -> Vec<(&'static str, &'static str)> {
+    match drawn {
+        Drawn::Truth => vec![("cone", "[0, 0, 1]")],
+        Drawn::Area => vec![("inverse-cosine", "[1, 0, 0]"), ("gaussian", "receiver")],
+        Drawn::Along => vec![("uniform-angles", "[1, 0, 0]")],
+        Drawn::Across => vec![
+            ("uniform-angles", "[0, 0, 1]"),
+            ("uniform-angles", "[0, 1, 0]"),
+            ("uniform-angles", "receiver"),
+        ],
     }
 }
 
@@ -82,19 +41,19 @@ fn the_known_figures_come_out() {
     ];
     for (h, figures) in table {
         for (law, figure) in LAWS.into_iter().zip(figures) {
-            let share = law.share(h);
-            println!("h {h}, {law:?}: {share:.5} for {figure}");
-            assert!((share - figure).abs() <= 0.0006, "{law:?} at {h}: {share}");
+            let found = share(law, h);
+            println!("h {h}, {law:?}: {found:.5} for {figure}");
+            assert!((found - figure).abs() <= 0.0006, "{law:?} at {h}: {found}");
         }
     }
     for law in LAWS {
-        assert!((law.share(1.0) - 1.0).abs() < 1e-6, "{law:?}");
-        assert!((law.share(-0.3) + law.share(0.3) - 1.0).abs() < 1e-12);
+        assert!((share(law, 1.0) - 1.0).abs() < 1e-6, "{law:?}");
+        assert!((share(law, -0.3) + share(law, 0.3) - 1.0).abs() < 1e-12);
     }
     // Where the literal estimators are most wrong.
-    let off = |law: Law, h: f64| (law.share(h) - Law::Truth.share(h)).abs();
-    assert!((off(Law::Area, (1.0 - PI * PI / 16.0).sqrt()) - 0.058).abs() < 5e-4);
-    assert!((off(Law::Along, 0.5f64.sqrt()) - 0.5 / PI).abs() < 1e-9);
+    let off = |law: Drawn, h: f64| (share(law, h) - share(Drawn::Truth, h)).abs();
+    assert!((off(Drawn::Area, (1.0 - PI * PI / 16.0).sqrt()) - 0.058).abs() < 5e-4);
+    assert!((off(Drawn::Along, 0.5f64.sqrt()) - 0.5 / PI).abs() < 1e-9);
 }
 
 const ALBEDO: [f64; 3] = [0.8, 0.5, 0.25];
@@ -143,9 +102,9 @@ fn the_literal_estimator_sees_the_share_of_its_points() {
     let mut family = Family::new("penumbra, literal", 35_000);
     for bench in benches() {
         for law in LITERAL {
-            for way in law.ways() {
+            for way in ways(law) {
                 for h in EDGES {
-                    let case = with(case(h, law.share(h)), way).within(0.004);
+                    let case = with(case(h, share(law, h)), way).within(0.004);
                     family.check(bench, &case.set("light.weight", "solid-angle"));
                 }
             }
@@ -159,9 +118,9 @@ fn the_unbiased_estimator_sees_the_truth() {
     let mut family = Family::new("penumbra, unbiased", 36_000);
     for bench in benches() {
         for law in LAWS {
-            for way in law.ways() {
+            for way in ways(law) {
                 for h in EDGES {
-                    let case = with(case(h, Law::Truth.share(h)), way);
+                    let case = with(case(h, share(Drawn::Truth, h)), way);
                     family.check(bench, &case.set("light.weight", "pdf"));
                 }
             }
@@ -174,8 +133,8 @@ fn the_unbiased_estimator_sees_the_truth() {
 fn the_gate_tells_the_shares_apart() {
     let mut family = Family::new("penumbra, mutants", 37_000);
     for bench in benches() {
-        let literal = |seen: Law, drawn: Law, h: f64| {
-            let case = with(case(h, seen.share(h)), drawn.ways()[0]);
+        let literal = |seen: Drawn, drawn: Drawn, h: f64| {
+            let case = with(case(h, share(seen, h)), ways(drawn)[0]);
             case.set("light.weight", "solid-angle")
         };
         for h in [0.25, 0.5] {
@@ -185,12 +144,12 @@ fn the_gate_tells_the_shares_apart() {
                 }
             }
             // True densities have none of the paper's shares, and an edge a hundredth off has another.
-            let unbiased = literal(Law::Area, Law::Area, h).set("light.weight", "pdf");
+            let unbiased = literal(Drawn::Area, Drawn::Area, h).set("light.weight", "pdf");
             family.reject(bench, &unbiased);
             let edge = format!("[{}, 1.0, -0.5]", (h + 0.01) * Q * 1.001);
             family.reject(
                 bench,
-                &literal(Law::Area, Law::Area, h).set("boxes.1.min", edge),
+                &literal(Drawn::Area, Drawn::Area, h).set("boxes.1.min", edge),
             );
         }
     }
