@@ -3,3 +3,5 @@
 mod figure;
 
 pub use figure::*;
+mod study;
+pub use study::{Effort, Study, studies};
