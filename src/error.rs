@@ -39,6 +39,9 @@ pub enum Error {
     /// the same command tries them again).
     #[error("{0} runs failed: runs.jsonl says why; the same command tries them again")]
     Runs(usize),
+    /// References of a sweep that failed, with all runs done (exit 75).
+    #[error("{0} references failed: report.html says why; the same command tries them again")]
+    References(usize),
     /// A fault of lampray itself (exit 70).
     #[error(
         "internal error: {0}. This is a fault of lampray: please report it with the command and the scene"

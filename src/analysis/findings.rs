@@ -1,6 +1,7 @@
 //! What the data say, in sentences, most important first: whether they can be trusted, which groups are
 //! biased, which is best for its time, and where more samples stop helping.
 
+use super::group::Group;
 use super::quantity::Quantity;
 use super::sweep::Analysis;
 use super::words::{inverted, list, negated, number, percent, ranged};
@@ -67,7 +68,7 @@ impl Analysis {
             let sentence = match worst {
                 Some(worst) => self.bias_sentence(index, worst),
                 None => format!(
-                    "{} differs from the reference in places of the {}, though its mean there does not show it.",
+                    "{} differs from its reference in places of the {}, though its mean there does not show it.",
                     group.name, self.question.regions[first].name
                 ),
             };
@@ -115,10 +116,16 @@ impl Analysis {
             (!names.is_empty()).then(|| list(&names))
         };
         let margin = number(100.0 * self.question.terms.margin);
+        let reference = match self.question.references.len() {
+            ..=1 => "the reference",
+            _ => "their reference",
+        };
         let same = of(Outcome::Same)
-            .map(|names| format!("Same mean as the reference, within {margin} %: {names}."));
+            .map(|names| format!("Same mean as {reference}, within {margin} %: {names}."));
         let open = of(Outcome::NotEnoughSamples).map(|names| {
-            format!("Not enough samples to show the reference's mean within {margin} %: {names}.")
+            format!(
+                "Not enough samples to show the mean of {reference} within {margin} %: {names}."
+            )
         });
         same.into_iter().chain(open).collect()
     }
@@ -134,16 +141,21 @@ impl Analysis {
             return Vec::new();
         };
         let baseline = &self.groups[self.baseline].name;
-        let what = match self.question.reference {
+        let what = match self.groups[self.baseline].reference {
             Some(_) => "error",
             None => "noise",
         };
         let group = &self.groups[best];
+        let alike = |other: &Group| other.reference == self.groups[self.baseline].reference;
+        let of = match self.groups.iter().all(alike) {
+            true => String::new(),
+            false => format!("Of the groups held against the reference of {baseline}: "),
+        };
         let but = match self.outcome(best, WHOLE) {
             Some(Outcome::Different) => ", bias included",
             _ => "",
         };
-        vec![if ratio.high < 1.0 {
+        let sentence = if ratio.high < 1.0 {
             format!(
                 "{} has the least squared {what} at equal time{but}: {baseline} has {} times as much.",
                 group.name,
@@ -161,7 +173,8 @@ impl Analysis {
                 group.name,
                 ranged(ratio)
             )
-        }]
+        };
+        vec![of + &sentence]
     }
 
     /// Where bias overtakes noise, the fewest samples first.

@@ -19,6 +19,8 @@ pub struct Group {
     pub name: String,
     /// Value of each axis but the seed, by path.
     pub values: Map<String, Value>,
+    /// Number of the reference that it is held against.
+    pub reference: Option<usize>,
     pub runs: usize,
     /// Samples a pixel of a run.
     pub samples: f64,
@@ -61,8 +63,8 @@ pub struct RegionFigures {
 }
 
 impl Group {
-    pub(super) fn new(question: &Question, runs: Runs) -> Self {
-        let reference = question.reference.as_ref();
+    pub(super) fn new(question: &Question, runs: Runs, number: Option<usize>) -> Self {
+        let reference = number.map(|number| &question.references[number]);
         let planes = Planes::new(&runs);
         let regions = question.regions.iter().map(|region| {
             let pixels = question.pixels(region.rect);
@@ -79,6 +81,7 @@ impl Group {
         Self {
             regions: regions.collect(),
             maps: Maps::new(&runs, reference, planes.mean),
+            reference: number,
             runs: runs.len(),
             samples: runs.samples(),
             seconds: ratios::seconds(&runs.seconds),

@@ -3,7 +3,7 @@
 //! ```text
 //! Picture, seconds ─Runs::add→ Runs (a group: runs that differ in nothing but the seed)
 //! Runs ─Question::answer→ Group ─┐
-//! reference ──↗                  ├─Analysis::new→ ratios to a baseline, findings → report::data::ReportData
+//! its reference ──↗              ├─Analysis::new→ ratios to a baseline, findings → report::data::ReportData
 //! other groups ──────────────────┘
 //! ```
 //!
@@ -50,7 +50,9 @@
 //! independent; those that share seeds share noise, which as a rule makes their ratio steadier than its
 //! interval says.
 //!
-//! Group and reference must share no random numbers: the reference takes a seed of its own.
+//! Group and reference must share no random numbers: the reference takes a seed of its own. A question
+//! has one reference for each expected picture, and each group says which one it is held against; ratios
+//! are only of groups that share theirs.
 
 mod agreement;
 mod cell;
@@ -63,6 +65,7 @@ mod quantity;
 mod question;
 mod ratios;
 mod reference;
+mod room;
 mod runs;
 mod sweep;
 mod words;

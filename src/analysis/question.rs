@@ -1,4 +1,4 @@
-//! What a sweep is asked: against which reference, where, and how sure the answer has to be.
+//! What a sweep is asked: against which references, where, and how sure the answer has to be.
 
 use super::group::Group;
 use super::reference::Reference;
@@ -15,10 +15,26 @@ pub struct Region {
     pub rect: Rect,
 }
 
+impl Region {
+    /// # Errors
+    /// [`Error::Usage`] where it is not inside of a picture of this size.
+    pub fn fits(&self, [width, height]: [u32; 2]) -> Result<()> {
+        let Rect { x0, y0, x1, y1 } = self.rect;
+        if x0 < x1 && y0 < y1 && x1 <= width && y1 <= height {
+            return Ok(());
+        }
+        Err(Error::Usage(format!(
+            "region {}: {x0},{y0},{x1},{y1} is not a part of a picture of {width} x {height}",
+            self.name
+        )))
+    }
+}
+
 #[derive(Clone, Debug)]
 pub struct Question {
     pub(super) size: [u32; 2],
-    pub(super) reference: Option<Reference>,
+    /// One for each expected picture.
+    pub(super) references: Vec<Reference>,
     /// The first is the whole picture.
     pub(super) regions: Vec<Region>,
     /// Of each verdict.
@@ -34,7 +50,7 @@ impl Question {
     /// [`Error::Usage`] for a reference of another size or a region that is not inside.
     pub fn new(
         size: [u32; 2],
-        reference: Option<Reference>,
+        references: Vec<Reference>,
         regions: Vec<Region>,
         terms: Terms,
         groups: usize,
@@ -49,28 +65,15 @@ impl Question {
                 y1,
             },
         };
-        let of = |reference: &Reference| [reference.picture.width, reference.picture.height];
-        if reference
-            .as_ref()
-            .is_some_and(|reference| of(reference) != size)
-        {
-            return Err(Error::Usage(
-                "the reference is not of the size of the runs".into(),
-            ));
-        }
-        for Region { name, rect } in &regions {
-            if rect.x0 >= rect.x1 || rect.y0 >= rect.y1 || rect.x1 > x1 || rect.y1 > y1 {
-                return Err(Error::Usage(format!(
-                    "region {name}: {},{},{},{} is not a part of a picture of {x1} x {y1}",
-                    rect.x0, rect.y0, rect.x1, rect.y1
-                )));
-            }
-        }
+        references
+            .iter()
+            .try_for_each(|reference| reference.fits(size))?;
+        regions.iter().try_for_each(|region| region.fits(size))?;
         let regions: Vec<_> = std::iter::once(whole).chain(regions).collect();
         let verdicts = (groups.max(1) * regions.len()) as f64;
         Ok(Self {
             size,
-            reference,
+            references,
             regions,
             terms: Terms {
                 alpha: terms.alpha / verdicts,
@@ -79,20 +82,26 @@ impl Question {
         })
     }
 
-    pub fn reference(&self) -> Option<&Reference> {
-        self.reference.as_ref()
+    pub fn references(&self) -> &[Reference] {
+        &self.references
+    }
+
+    /// Width and height of every picture.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
     }
 
     pub fn regions(&self) -> &[Region] {
         &self.regions
     }
 
-    /// What the runs of one group say. Takes them, so that their memory is given back.
+    /// What the runs of one group say, held against the reference of this number or against none. Takes
+    /// the runs, so that their memory is given back.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a group without runs, of another size, or one that shares random numbers
-    /// with the reference.
-    pub fn answer(&self, runs: Runs) -> Result<Group> {
+    /// [`Error::Usage`] for a group without runs, of another size, one that shares random numbers
+    /// with its reference, or a reference that there is not.
+    pub fn answer(&self, runs: Runs, reference: Option<usize>) -> Result<Group> {
         let fail = |reason: &str| Err(Error::Usage(format!("{}: {reason}", runs.name)));
         if runs.is_empty() {
             return fail("a group without runs");
@@ -100,7 +109,10 @@ impl Question {
         if runs.size != self.size {
             return fail("its pictures are not of the size of the others");
         }
-        if let Some(reference) = &self.reference {
+        if reference.is_some_and(|number| number >= self.references.len()) {
+            return fail("there is no reference of this number");
+        }
+        if let Some(reference) = reference.map(|number| &self.references[number]) {
             let shared = |record| kinship(&reference.picture.record, record).paired;
             if runs.records.iter().any(shared) {
                 return fail(
@@ -108,7 +120,7 @@ impl Question {
                 );
             }
         }
-        Ok(Group::new(self, runs))
+        Ok(Group::new(self, runs, reference))
     }
 
     /// Row by row, every other one from right to left: each pixel follows one that it touches, which

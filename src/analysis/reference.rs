@@ -21,6 +21,19 @@ impl Reference {
         })
     }
 
+    /// # Errors
+    /// [`Error::Usage`] where it cannot be held against pictures of this size.
+    pub fn fits(&self, [width, height]: [u32; 2]) -> Result<()> {
+        let picture = &self.picture;
+        if [picture.width, picture.height] == [width, height] {
+            return Ok(());
+        }
+        Err(Error::Usage(format!(
+            "the reference {} has {} x {} pixels, the runs have {width} x {height}",
+            self.name, picture.width, picture.height
+        )))
+    }
+
     pub fn picture(&self) -> &Picture {
         &self.picture
     }

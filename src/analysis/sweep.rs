@@ -18,7 +18,9 @@ pub struct Analysis {
     pub against: Vec<Vec<Against>>,
 }
 
-/// What a group's error costs in a region. The ratios are of the noise alone where there is no reference.
+/// What a group's error costs in a region. The ratios are of the noise alone where there is no reference,
+/// and absent between groups that are held against different ones: an error of another picture is
+/// neither more nor less.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Against {
     /// None unless the verdict finds a difference.
@@ -47,11 +49,10 @@ impl Analysis {
                 names.join(", ")
             )));
         };
-        let has_reference = question.reference.is_some();
         let against = |index: usize| {
             let regions = 0..question.regions.len();
             regions
-                .map(|region| Against::new(&groups, [index, baseline], region, has_reference))
+                .map(|region| Against::new(&groups, [index, baseline], region))
                 .collect()
         };
         let against = (0..groups.len()).map(against).collect();
@@ -65,12 +66,8 @@ impl Analysis {
 }
 
 impl Against {
-    fn new(
-        groups: &[Group],
-        [group, baseline]: [usize; 2],
-        region: usize,
-        has_reference: bool,
-    ) -> Self {
+    fn new(groups: &[Group], [group, baseline]: [usize; 2], region: usize) -> Self {
+        let alike = groups[group].reference == groups[baseline].reference;
         let cost = |index: usize| Cost {
             energy: &groups[index].regions[region].energy,
             seconds: groups[index].seconds,
@@ -85,7 +82,7 @@ impl Against {
                     high: 1.0,
                 });
             }
-            compare(of, cost(baseline))
+            alike.then(|| compare(of, cost(baseline))).flatten()
         };
         let samples = groups[group].samples;
         // A bias that the verdict does not see may be one of the many numbers here that are clear of 0 by
@@ -96,7 +93,11 @@ impl Against {
             crossing: biased
                 .then(|| ratios::crossing(of.energy, samples))
                 .flatten(),
-            efficiency: has_reference.then(|| ratios::efficiency(of)).flatten(),
+            efficiency: groups[group]
+                .reference
+                .is_some()
+                .then(|| ratios::efficiency(of))
+                .flatten(),
             equal_time: ratio(ratios::equal_time),
             equal_error: ratio(ratios::equal_error),
         }

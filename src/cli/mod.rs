@@ -7,6 +7,7 @@ mod knobs;
 mod merge;
 mod options;
 mod points;
+mod progress;
 mod render;
 mod rerun;
 mod run;
@@ -146,6 +147,6 @@ fn code(error: &Error) -> u8 {
         Error::Internal(_) => INTERNAL,
         Error::Create { .. } => 73,
         Error::Write { .. } => 74,
-        Error::DeviceLost(_) | Error::Runs(_) => 75,
+        Error::DeviceLost(_) | Error::Runs(_) | Error::References(_) => 75,
     }
 }

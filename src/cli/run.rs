@@ -1,6 +1,7 @@
 //! What `render` and `rerun` share: from a scene to files and a record.
 
 use super::options::DeviceOptions;
+use super::progress::bar;
 use super::signal::Watch;
 use super::{Output, note, print};
 use crate::cpu::Cpu;
@@ -10,10 +11,10 @@ use crate::film::{Aov, Film, Record, Target, name_outputs};
 use crate::pack::Rect;
 use crate::render::{self, Progress, Rendering, Task};
 use crate::scene::Scene;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// A render as a command line asks for it.
 pub(crate) struct Run<'a> {
@@ -118,17 +119,14 @@ fn remark(text: &str, output: Output) {
 
 /// A bar on a terminal, nothing elsewhere.
 fn progress_bar(output: Output, scene: &Scene) -> ProgressBar {
-    if output.quiet {
-        return ProgressBar::hidden();
-    }
     let name = Path::new(&scene.source.name)
         .file_stem()
         .unwrap_or_default();
-    let style = ProgressStyle::with_template("{prefix} {wide_bar} {percent}% {elapsed}/{duration}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::no_length().with_style(style);
+    let bar = bar(
+        output,
+        "{prefix} {wide_bar} {percent}% {elapsed}/{duration}",
+    );
     bar.set_prefix(name.to_string_lossy().into_owned());
-    bar.enable_steady_tick(Duration::from_millis(200));
     bar
 }
 

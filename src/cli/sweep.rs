@@ -1,22 +1,21 @@
 use super::options::{DeviceOptions, ShortKnobs};
+use super::progress::Bar;
 use super::signal::Watch;
 use super::{Output, note, print};
-use crate::analysis::{Reference, Region};
 use crate::device::{Device, DeviceInfo};
 use crate::error::{Error, Result};
-use crate::film::read_exr;
-use crate::pack::Rect;
 use crate::place::Place;
 use crate::render::{self, Task};
 use crate::report::page;
 use crate::scene::Scene;
 use crate::sweep::{
-    About, Axis, Base, Grid, Plan, Planned, Progress, Rules, Summary, Sweep, report_data, table,
+    About, Axis, Base, Experiment, Grid, Progress, ReferenceRule, ReferenceSummary, Rules, Step,
+    Summary, Sweep, report_data, table,
 };
 use clap::Args;
 use serde_json::json;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Render a grid of knob values in one process
@@ -31,7 +30,8 @@ use std::time::{Duration, Instant};
 #[command(after_help = "Examples:
   lampray sweep scenes/cornell.toml --set light.sampler=cone,gaussian --set render.samples=4..64*2 --seeds 8 -o samplers
   lampray sweep scenes/cornell.toml --preset corrected --set materials.white.survival=0.5..1+0.1 -o survival --dry-run
-  lampray sweep scenes/cornell.toml --set light.sampler=cone,gaussian --seeds 100 --shard 1/4 -o part1")]
+  lampray sweep scenes/cornell.toml --set light.sampler=cone,gaussian --seeds 100 --shard 1/4 -o part1
+  lampray sweep scenes/cornell.toml --set render.preset=paper,corrected --set image.filter=box --seeds 8 -o bias")]
 pub(crate) struct Command {
     /// Scene file (TOML)
     scene: PathBuf,
@@ -62,9 +62,10 @@ pub(crate) struct Command {
     /// Give a run up after so many seconds
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<f64>,
-    /// What the runs are held against for bias and error: an EXR of many samples, with another seed
-    #[arg(long, value_name = "EXR")]
-    reference: Option<PathBuf>,
+    /// What the runs are held against for bias and error: auto (rendered after them, with as many
+    /// samples as they have together), none, samples a pixel, or an EXR of another seed [default: auto]
+    #[arg(long, value_name = "auto|none|SAMPLES|FILE.exr")]
+    reference: Option<ReferenceRule>,
     /// Make only the I-th of N parts of the grid
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
@@ -82,55 +83,53 @@ impl Command {
             text: Scene::read_text(&self.scene)?,
             assignments: self.knobs.assignments(),
         };
-        let grid = self.grid(&base)?;
+        let scene = Scene::parse(&base.name, &base.text, &base.assignments)?;
+        let grid = self.grid(&scene)?;
         grid.count()?;
-        let mut device = Some(self.open(output)?);
-        let plan = self.plan(&base, &grid, device.as_deref().map(|device| device.info()))?;
+        let rules = self.rules()?;
+        let device = self.open(output)?;
+        let experiment = self.experiment(&scene, base, grid, device.info())?;
         if self.dry_run {
-            return self.foretell(&base, &plan, device.as_deref_mut(), output);
+            return foretell(&experiment, device, output);
         }
-        // Read before the runs: a reference that is not there is not to be found out after hours.
-        let about = About {
-            title: self
-                .scene
-                .file_stem()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned(),
-            command: command_line(),
-            grid: &grid,
-            ids: plan.runs.iter().map(|run| run.id.as_str()).collect(),
-            regions: regions(&base)?,
-            reference: self.reference()?,
-        };
-        let mut sweep = Sweep::new(&base, &plan, &self.output, self.rules()?)?;
-        let mut shown = None;
+        let mut sweep = Sweep::new(&experiment, &self.output, rules)?;
+        let bar = Bar::new(output);
         let mut watch = |progress: Progress| {
-            if shown != Some(progress.run.number) {
-                shown = Some(progress.run.number);
-                remark(&describe(&progress), output);
-            }
+            bar.show(progress.share, &describe(&progress));
             match signals.stopped() {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }
         };
+        let mut device = Some(device);
         let mut open = || {
             device
                 .take()
                 .map_or_else(|| Ok(self.device.open()?.device), Ok)
         };
         let summary = sweep.go(&mut open, &mut watch)?;
-        let entries = sweep.entries()?;
-        self.write("table.csv", &table(&entries))?;
-        let data = report_data(&self.output, &entries, about)?;
+        let early = summary.stopped || (summary.failed > 0 && self.fail_fast);
+        let references = match early {
+            true => ReferenceSummary {
+                stopped: true,
+                ..ReferenceSummary::default()
+            },
+            false => sweep.references(&mut open, &mut watch)?,
+        };
+        bar.clear();
+        self.write("table.csv", &table(&sweep.entries()?))?;
+        let about = About {
+            title: title(&self.scene),
+            command: command_line(),
+            findings: not_made(&references),
+        };
+        let data = report_data(&self.output, &experiment, about)?;
         self.write("report.html", &page(&data)?)?;
-        self.conclude(summary, output)
+        self.conclude(summary, references, output)
     }
 
     /// The command line's grid; what it does not say, the scene's `[sweep]` does.
-    fn grid(&self, base: &Base) -> Result<Grid> {
-        let scene = Scene::parse(&base.name, &base.text, &base.assignments)?;
+    fn grid(&self, scene: &Scene) -> Result<Grid> {
         let wanted = &scene.sweep;
         let set = if self.set.is_empty() {
             &wanted.set
@@ -155,18 +154,20 @@ impl Command {
         Ok(chosen.device)
     }
 
-    fn plan(&self, base: &Base, grid: &Grid, device: Option<&DeviceInfo>) -> Result<Plan> {
-        let device = device.ok_or_else(|| Error::Internal("no device".into()))?;
-        let plan = Plan::new(base, grid, device)?;
-        let Some(text) = &self.shard else {
-            return Ok(plan);
+    fn experiment(
+        &self,
+        scene: &Scene,
+        base: Base,
+        grid: Grid,
+        device: &DeviceInfo,
+    ) -> Result<Experiment> {
+        let shard = self.shard.as_deref().map(shard).transpose()?;
+        let rule = match (&self.reference, &scene.sweep.reference) {
+            (Some(rule), _) => rule.clone(),
+            (None, Some(text)) => beside(text.parse()?, &self.scene),
+            (None, None) => ReferenceRule::default(),
         };
-        let parts = text.split_once('/').and_then(|(part, parts)| {
-            Some((part.trim().parse().ok()?, parts.trim().parse().ok()?))
-        });
-        let (part, parts) = parts
-            .ok_or_else(|| Error::Usage(format!("--shard {text}: give I/N, for example 1/4")))?;
-        plan.shard(part, parts)
+        Experiment::new(base, grid, device, &rule, shard)
     }
 
     fn rules(&self) -> Result<Rules> {
@@ -183,73 +184,131 @@ impl Command {
         })
     }
 
-    /// `--dry-run`.
-    fn foretell(
-        &self,
-        base: &Base,
-        plan: &Plan,
-        device: Option<&mut (dyn Device + 'static)>,
-        output: Output,
-    ) -> Result<()> {
-        let device = device.ok_or_else(|| Error::Internal("no device".into()))?;
-        let paths: u64 = plan.runs.iter().map(|run| run.paths).sum();
-        let seconds = match plan.runs.first() {
-            Some(run) => paths as f64 * time_a_path(base, run, device)?,
-            None => 0.0,
-        };
-        if output.json {
-            let told = json!({ "runs": plan.runs.len(), "paths": paths, "seconds": seconds });
-            return print(&format!("{told}\n"));
-        }
-        let about = spelled(Duration::from_secs_f64(seconds));
-        print(&format!(
-            "{} runs, {paths} paths, about {about} on {}\n",
-            plan.runs.len(),
-            device.info().name
-        ))
-    }
-
     fn write(&self, name: &str, text: &str) -> Result<()> {
         let place = Place::prepare(self.output.join(name))?;
         place.write(|sink| sink.write_all(text.as_bytes()))
     }
 
-    fn reference(&self) -> Result<Option<Reference>> {
-        let read = |path: &PathBuf| Reference::new(&path.to_string_lossy(), read_exr(path)?);
-        self.reference.as_ref().map(read).transpose()
-    }
-
-    fn conclude(&self, summary: Summary, output: Output) -> Result<()> {
+    fn conclude(
+        &self,
+        summary: Summary,
+        references: ReferenceSummary,
+        output: Output,
+    ) -> Result<()> {
         let Summary {
             made,
             skipped,
             failed,
-            stopped,
+            ..
         } = summary;
+        let stopped = summary.stopped || references.stopped;
         let folder = self.output.display();
         let state = if stopped { " (stopped early)" } else { "" };
+        let own = match (references.made, references.found) {
+            (0, 0) => String::new(),
+            (made, found) => format!("; references: {made} made, {found} were there"),
+        };
         remark(
-            &format!("{folder}: {made} runs made{state}, {skipped} were there, {failed} failed"),
+            &format!(
+                "{folder}: {made} runs made{state}, {skipped} were there, {failed} failed{own}"
+            ),
             output,
         );
+        for (name, reason) in &references.failed {
+            remark(
+                &format!("lampray: the {name} was not made: {reason}"),
+                output,
+            );
+        }
         if output.json {
+            let own = json!({
+                "made": references.made, "found": references.found, "failed": references.failed.len(),
+            });
             let told = json!({
-                "folder": self.output, "made": made, "skipped": skipped, "failed": failed, "stopped": stopped,
+                "folder": self.output, "made": made, "skipped": skipped, "failed": failed,
+                "stopped": stopped, "references": own,
             });
             print(&format!("{told}\n"))?;
         }
-        match failed {
-            0 => Ok(()),
-            _ => Err(Error::Runs(failed)),
+        match (failed, references.failed.len()) {
+            (0, 0) => Ok(()),
+            (0, references) => Err(Error::References(references)),
+            (runs, _) => Err(Error::Runs(runs)),
         }
     }
 }
 
-/// Seconds that a path takes, by a small part of a run: the first time it is compiled, too.
-fn time_a_path(base: &Base, run: &Planned, device: &mut dyn Device) -> Result<f64> {
+/// A file that a scene names is beside it.
+fn beside(rule: ReferenceRule, scene: &Path) -> ReferenceRule {
+    match (rule, scene.parent()) {
+        (ReferenceRule::File(file), Some(folder)) => ReferenceRule::File(folder.join(file)),
+        (rule, _) => rule,
+    }
+}
+
+/// `I/N`.
+fn shard(text: &str) -> Result<[usize; 2]> {
+    let parts = text
+        .split_once('/')
+        .and_then(|(part, parts)| Some([part.trim().parse().ok()?, parts.trim().parse().ok()?]));
+    parts.ok_or_else(|| Error::Usage(format!("--shard {text}: give I/N, for example 1/4")))
+}
+
+fn title(scene: &Path) -> String {
+    let stem = scene.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
+}
+
+/// Why references are missing.
+fn not_made(references: &ReferenceSummary) -> Vec<String> {
+    let failed = references.failed.iter();
+    let mut sentences: Vec<String> = failed
+        .map(|(name, reason)| format!("The {name} was not made: {reason}."))
+        .collect();
+    if references.stopped {
+        sentences.push("The sweep was stopped early; the same command goes on with it.".into());
+    }
+    sentences
+}
+
+/// `--dry-run`.
+fn foretell(experiment: &Experiment, mut device: Box<dyn Device>, output: Output) -> Result<()> {
+    let runs = &experiment.plan.runs;
+    let references = experiment.references(&|_| true)?;
+    let paths: u64 = runs.iter().map(|run| run.paths).sum();
+    let more: u64 = references.iter().map(|reference| reference.paths).sum();
+    let mut seconds = 0.0;
+    if let Some(run) = runs.first() {
+        let scene = experiment.base.scene(&run.point)?;
+        seconds += paths as f64 * time_a_path(&scene, device.as_mut())?;
+    }
+    if let Some(reference) = references.first() {
+        seconds += more as f64 * time_a_path(reference.scene(), device.as_mut())?;
+    }
+    if output.json {
+        let told = json!({
+            "runs": runs.len(), "paths": paths, "references": references.len(),
+            "reference_paths": more, "seconds": seconds,
+        });
+        return print(&format!("{told}\n"));
+    }
+    let about = spelled(Duration::from_secs_f64(seconds));
+    let own = match references.len() {
+        0 => String::new(),
+        1 => format!(", 1 reference of {more} paths"),
+        many => format!(", {many} references of {more} paths"),
+    };
+    print(&format!(
+        "{} runs, {paths} paths{own}, about {about} on {}\n",
+        runs.len(),
+        device.info().name
+    ))
+}
+
+/// Seconds that a path takes, by a small part of a render: the first time it is compiled, too.
+fn time_a_path(scene: &Scene, device: &mut dyn Device) -> Result<f64> {
     const LONGEST: Duration = Duration::from_secs(2);
-    let scene = base.scene(&run.point)?;
-    let mut task = Task::new(&scene);
+    let mut task = Task::new(scene);
     task.samples.end = task.samples.end.min(4);
     let mut pilot = || {
         let started = Instant::now();
@@ -263,19 +322,6 @@ fn time_a_path(base: &Base, run: &Planned, device: &mut dyn Device) -> Result<f6
     };
     pilot()?;
     pilot()
-}
-
-/// The scene's `[sweep.regions]`.
-fn regions(base: &Base) -> Result<Vec<Region>> {
-    let scene = Scene::parse(&base.name, &base.text, &base.assignments)?;
-    let region = |region: crate::scene::Region| {
-        let [x0, y0, x1, y1] = region.rect;
-        Region {
-            name: region.name,
-            rect: Rect { x0, y0, x1, y1 },
-        }
-    };
-    Ok(scene.sweep.regions.into_iter().map(region).collect())
 }
 
 /// As it was typed, for a shell.
@@ -292,27 +338,29 @@ fn command_line() -> String {
         .join(" ")
 }
 
+/// Which run of how many it is, what it is of, and the time left.
 fn describe(progress: &Progress) -> String {
-    let values: Vec<String> = progress
-        .run
-        .point
-        .values
-        .iter()
-        .map(|(path, value)| format!("{path}={value}"))
-        .collect();
-    let repeat = match progress.run.point.repeat {
-        0 => String::new(),
-        repeat => format!(" seed +{repeat}"),
-    };
+    let place = format!("{}/{}", progress.done + 1, progress.total);
     let left = progress.left.map_or(String::new(), |left| {
         format!(", about {} left", spelled(left))
     });
-    format!(
-        "[{}/{}] {}{repeat}{left}",
-        progress.done + 1,
-        progress.total,
-        values.join(" ")
-    )
+    match progress.step {
+        Step::Reference(reference) => format!(
+            "[reference {place}] {} samples a pixel{left}",
+            reference.samples
+        ),
+        Step::Run(run) => {
+            let values = run.point.values.iter();
+            let values: Vec<String> = values
+                .map(|(path, value)| format!("{path}={value}"))
+                .collect();
+            let repeat = match run.point.repeat {
+                0 => String::new(),
+                repeat => format!(" seed +{repeat}"),
+            };
+            format!("[{place}] {}{repeat}{left}", values.join(" "))
+        }
+    }
 }
 
 /// Seconds, minutes or hours.

@@ -49,7 +49,8 @@ fn sweep() -> Json {
             "set": { "type": "array", "items": { "type": "string" }, "description": "PATH=VALUES, as --set takes them" },
             "zip": { "type": "boolean", "description": "the values in step instead of every combination" },
             "seeds": { "type": "integer", "minimum": 1, "maximum": 1_000_000, "description": "repeats of each point" },
-            "regions": { "type": "object", "additionalProperties": rect, "description": "x0, y0, x1, y1 by name" },
+            "reference": { "type": ["string", "integer"], "description": "auto, none, samples a pixel, or an EXR: what runs are held against" },
+            "regions": { "type": "object", "additionalProperties": rect, "description": "x0, y0, x1, y1 by name, in pixels of the size that the file states" },
         },
         "additionalProperties": false,
     })

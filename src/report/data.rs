@@ -21,11 +21,14 @@ pub struct ReportData {
     pub groups: Vec<GroupData>,
     /// Parts of the picture that are analysed by themselves; the first is the whole picture.
     pub regions: Vec<RegionData>,
-    pub reference: Option<ReferenceData>,
+    /// One for each expected picture.
+    pub references: Vec<ReferenceData>,
     /// Pictures that the page can show: linear light.
     pub images: Vec<ImageData>,
     /// Sentences that the data say, most important first.
     pub findings: Vec<String>,
+    /// What a reader must know of the page itself: what it leaves out, and why.
+    pub notes: Vec<String>,
 }
 
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -72,6 +75,8 @@ pub struct GroupData {
     pub name: String,
     /// Value of each axis but the seed, by path.
     pub values: Map<String, Value>,
+    /// Index into `references`: what it is held against.
+    pub reference: Option<usize>,
     pub runs: usize,
     pub samples: u64,
     /// Mean tracing time of a run, seconds.
@@ -100,9 +105,10 @@ pub struct RegionResult {
     pub crossing: Option<f64>,
     /// 1 / (MSE x seconds).
     pub efficiency: Option<Interval>,
-    /// Error at equal time over the first group's, below 1 is better.
+    /// Error at equal time over the first group's, below 1 is better; absent where the two are not held against
+    /// the same reference.
     pub equal_time: Option<Interval>,
-    /// Time to equal error over the first group's.
+    /// Time to equal error over the first group's; absent as `equal_time` is.
     pub equal_error: Option<Interval>,
     /// same, different or not-enough-samples, against the reference at the stated margin.
     pub verdict: Option<String>,

@@ -3,7 +3,7 @@
 
 use super::SweepTable;
 use super::faults::Origin;
-use crate::knobs::{Knob, Value};
+use crate::knobs::{Knob, Value, find};
 
 /// Everything that was written.
 #[derive(Debug, Default)]
@@ -85,6 +85,17 @@ impl Group {
 }
 
 impl Draft {
+    /// Width and height as they stand here, or else the default.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        ["image.width", "image.height"].map(|path| {
+            let written = self.singles.by_path(path);
+            let value = written.and_then(|entry| entry.value.as_ref());
+            let default = find(path).and_then(|target| target.knob.default());
+            let pixels = value.or(default).map_or(1, Value::integer);
+            u32::try_from(pixels).unwrap_or(u32::MAX)
+        })
+    }
+
     pub(crate) fn list(&mut self, section: &str) -> &mut Vec<Group> {
         match section {
             "materials" => &mut self.materials,

@@ -47,6 +47,8 @@ impl Scene {
             return Err(faults.finish());
         }
         let (mut draft, whole) = read::read(plain, &mut faults);
+        // Before the command line changes it: what the file says in pixels is of this size.
+        draft.sweep.size = draft.size();
         assign::apply(assignments, &mut draft, &mut faults);
         match build::build(source, &draft, whole, &mut faults) {
             Some(scene) => Ok(scene),

@@ -4,9 +4,14 @@
 //! [sweep]
 //! set = ["light.sampler=cone,gaussian", "render.samples=4..64*2"]
 //! seeds = 8
+//! reference = "auto"
 //! [sweep.regions]
 //! penumbra = [40, 90, 60, 100]
 //! ```
+//!
+//! Regions are in pixels of the size that the file states, or of the default one where it states none. A
+//! picture of another size (`--width`, a swept `image.width`) has them where they are in that one,
+//! rounded to whole pixels.
 
 use super::faults::{Faults, Origin};
 use super::read::ordered;
@@ -30,10 +35,48 @@ pub struct SweepTable {
     pub zip: bool,
     /// 0 where nothing was written.
     pub seeds: u64,
+    /// As `--reference` takes it.
+    pub reference: Option<String>,
     pub regions: Vec<Region>,
+    /// Width and height that the file states.
+    pub size: [u32; 2],
 }
 
-const KEYS: [&str; 4] = ["set", "zip", "seeds", "regions"];
+impl SweepTable {
+    /// The regions, which must be inside the size that the file states, in a picture of another size.
+    pub fn regions_in(&self, size: [u32; 2]) -> Vec<Region> {
+        let scaled = |region: &Region| {
+            let [x0, y0, x1, y1] = region.rect;
+            let [x0, x1] = scale([x0, x1], self.size[0], size[0]);
+            let [y0, y1] = scale([y0, y1], self.size[1], size[1]);
+            Region {
+                name: region.name.clone(),
+                rect: [x0, y0, x1, y1],
+            }
+        };
+        self.regions.iter().map(scaled).collect()
+    }
+}
+
+/// An interval inside a side, rounded to the nearest pixels and at least one of them long.
+fn scale(ends: [u32; 2], from: u32, to: u32) -> [u32; 2] {
+    if from == to {
+        return ends;
+    }
+    let near = |end: u32| {
+        let scaled = (f64::from(end) * f64::from(to) / f64::from(from.max(1))).round();
+        scaled as u32
+    };
+    match ends.map(near) {
+        [low, high] if low < high => [low, high],
+        [low, _] => {
+            let low = low.min(to.saturating_sub(1));
+            [low, low + 1]
+        }
+    }
+}
+
+const KEYS: [&str; 5] = ["set", "zip", "seeds", "reference", "regions"];
 
 /// Reads the table; what is wrong with it goes to `faults`.
 pub(super) fn read(value: &Spanned<DeValue<'_>>, faults: &mut Faults<'_>) -> SweepTable {
@@ -66,6 +109,16 @@ pub(super) fn read(value: &Spanned<DeValue<'_>>, faults: &mut Faults<'_>) -> Swe
                     value,
                     "sweep.seeds",
                     "a whole number from 1 to 1000000",
+                    faults,
+                ),
+            },
+            ("reference", DeValue::String(text)) => sweep.reference = Some(text.to_string()),
+            ("reference", _) => match whole(value) {
+                Some(samples) => sweep.reference = Some(samples.to_string()),
+                None => wrong(
+                    value,
+                    "sweep.reference",
+                    "\"auto\", \"none\", a number of samples or \"FILE.exr\"",
                     faults,
                 ),
             },

@@ -74,8 +74,13 @@ impl Ledger {
         Ok(self.finished.contains(id))
     }
 
+    /// As [`Ledger::has`], by what has been read so far.
+    pub fn knows(&self, id: &str) -> bool {
+        self.finished.contains(id)
+    }
+
     /// Reads the lines that have been added since.
-    fn refresh(&mut self) -> Result<()> {
+    pub(super) fn refresh(&mut self) -> Result<()> {
         let (mut finished, mut broken) = (Vec::new(), 0);
         self.read_to = self.each(self.read_to, |entry| match entry {
             Some(entry)

@@ -55,6 +55,10 @@ pub struct Planned {
     pub point: Point,
     /// Hash of everything that decides its pixels.
     pub id: String,
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Paths a pixel.
+    pub samples: u64,
     /// Paths that it takes.
     pub paths: u64,
     strategy: usize,
@@ -86,6 +90,8 @@ impl Plan {
             runs.push(Planned {
                 number,
                 id: id(&scene, device),
+                size: [image.width, image.height],
+                samples: scene.settings.render.samples,
                 paths: pixels * scene.settings.render.samples,
                 point,
                 strategy,
@@ -112,7 +118,7 @@ impl Plan {
 }
 
 /// Hash of a run's inputs: scene, every knob, shaders, version and the kind of device.
-fn id(scene: &Scene, device: &DeviceInfo) -> String {
+pub(super) fn id(scene: &Scene, device: &DeviceInfo) -> String {
     // Sorted: the order in which knobs were given says nothing.
     let knobs: BTreeMap<_, _> = scene.knobs.iter().collect();
     let inputs = json!({

@@ -1,66 +1,84 @@
-//! From a folder's ledger and pictures to `report.html`.
+//! From a folder's answer to `report.html`.
 
+use super::answer::{Answer, text};
+use super::experiment::Experiment;
 use super::grid::Grid;
-use super::ledger::{Entry, Status};
-use crate::analysis::{Analysis, Question, Reference, Region, Runs, picture_image};
-use crate::compare::verdict::Terms;
-use crate::error::{Error, Result};
-use crate::film::{Picture, read_exr};
+use super::ledger::Entry;
+use crate::analysis::picture_image;
+use crate::error::Result;
+use crate::film::Picture;
 use crate::report::ReportData;
-use crate::report::data::{AxisData, RunData};
-use serde_json::{Map, Value};
-use std::collections::HashSet;
+use crate::report::data::{AxisData, ImageData, RunData};
+use serde_json::Value;
 use std::path::Path;
 
 /// Pictures of single runs that a report shows, and the bytes that they may take; those of groups come
 /// besides.
 const MOST_IMAGES: usize = 64;
-const MOST_BYTES: usize = 8 << 20;
+const MOST_BYTES: usize = 8_000_000;
 /// What a pixel takes in the page: three half floats in base64.
 const PIXEL: usize = 8;
 
 /// What the report is about.
-pub struct About<'a> {
+#[derive(Clone, Debug, Default)]
+pub struct About {
     pub title: String,
     /// The command that makes the sweep again.
     pub command: String,
-    pub grid: &'a Grid,
-    /// Ids of the runs that belong to it; the folder may hold others.
-    pub ids: HashSet<&'a str>,
-    pub regions: Vec<Region>,
-    pub reference: Option<Reference>,
+    /// What is to be said beside what the data say, after it.
+    pub findings: Vec<String>,
 }
 
-/// Reads the pictures one after another and analyses them.
+/// Reads the folder's pictures and says what they say.
 ///
 /// # Errors
-/// [`Error::Usage`] for a reference or a region that does not fit. Groups that cannot be analysed are
-/// left out, and a finding says so.
-pub fn report_data(folder: &Path, entries: &[Entry], about: About) -> Result<ReportData> {
+/// Those of [`Answer::read`].
+pub fn report_data(folder: &Path, experiment: &Experiment, about: About) -> Result<ReportData> {
+    let mut shown = Vec::new();
+    let mut look = |entry: usize, picture: &Picture| {
+        let room = (MOST_BYTES / (PIXEL * picture.pixels())).min(MOST_IMAGES);
+        if shown.len() < room {
+            shown.push((entry, picture_image("", picture)));
+        }
+    };
+    let answer = Answer::read(folder, experiment, &mut look)?;
+    let grid = &experiment.grid;
     let mut data = ReportData {
         title: about.title,
-        question: question(about.grid),
+        question: question(grid),
         command: about.command,
         version: env!("CARGO_PKG_VERSION").into(),
-        axes: about.grid.axes.iter().map(axis).collect(),
+        axes: grid.axes.iter().map(axis).collect(),
+        runs: answer.entries.iter().map(run).collect(),
         ..ReportData::default()
     };
-    let mut mine: Vec<&Entry> = entries
-        .iter()
-        .filter(|entry| about.ids.contains(text(entry, "id")))
-        .collect();
-    mine.sort_by_key(|entry| entry.get("run").and_then(Value::as_u64));
-    let mut groups = gather(&mine, &mut data);
-    let left_out = analyse(
-        folder,
-        &mine,
-        &mut groups,
-        about.regions,
-        about.reference,
-        &mut data,
-    )?;
-    data.findings.extend(left_out);
+    for (group, members) in answer.members.iter().enumerate() {
+        members
+            .iter()
+            .for_each(|run| data.runs[*run].group = Some(group));
+    }
+    show(shown, &answer, &mut data);
+    if let Some(analysis) = &answer.analysis {
+        analysis.fill(&mut data);
+    }
+    data.findings.extend(answer.left_out);
+    data.findings.extend(about.findings);
     Ok(data)
+}
+
+/// Names the pictures of single runs and puts them first.
+fn show(shown: Vec<(usize, ImageData)>, answer: &Answer, data: &mut ReportData) {
+    for (entry, image) in shown {
+        let run = &mut data.runs[entry];
+        let groups = answer.analysis.iter().flat_map(|all| &all.groups);
+        let group = run.group.and_then(|group| groups.clone().nth(group));
+        let name = group.map_or("not analysed", |group| &group.name);
+        run.image = Some(data.images.len());
+        data.images.push(ImageData {
+            name: format!("{name}, seed {}", run.seed),
+            ..image
+        });
+    }
 }
 
 fn question(grid: &Grid) -> String {
@@ -78,65 +96,7 @@ fn axis(axis: &super::axis::Axis) -> AxisData {
     }
 }
 
-fn text<'e>(entry: &'e Entry, key: &str) -> &'e str {
-    entry.get(key).and_then(Value::as_str).unwrap_or_default()
-}
-
-fn is_ok(entry: &Entry) -> bool {
-    text(entry, "status") == Status::Ok.name()
-}
-
-/// Runs that differ in their seed alone.
-struct Gathered {
-    name: String,
-    values: Map<String, Value>,
-    /// Indices into the runs.
-    runs: Vec<usize>,
-}
-
-/// Fills the rows of the runs, and says which belong together.
-fn gather(entries: &[&Entry], data: &mut ReportData) -> Vec<Gathered> {
-    let mut groups: Vec<Gathered> = Vec::new();
-    for (number, entry) in entries.iter().enumerate() {
-        let values = entry
-            .get("swept")
-            .and_then(Value::as_object)
-            .cloned()
-            .unwrap_or_default();
-        let mut shared = values.clone();
-        shared.shift_remove("render.seed");
-        let place = match groups.iter().position(|group| group.values == shared) {
-            Some(place) => place,
-            None => {
-                groups.push(Gathered {
-                    name: name(&shared),
-                    values: shared,
-                    runs: Vec::new(),
-                });
-                groups.len() - 1
-            }
-        };
-        groups[place].runs.push(number);
-        data.runs.push(run(entry, values));
-    }
-    groups
-}
-
-/// `cone, 16`: the values, for a reader who knows the axes.
-fn name(values: &Map<String, Value>) -> String {
-    let plain = |value: &Value| match value {
-        Value::String(text) => text.clone(),
-        value => value.to_string(),
-    };
-    let all: Vec<String> = values.values().map(plain).collect();
-    if all.is_empty() {
-        "all runs".into()
-    } else {
-        all.join(", ")
-    }
-}
-
-fn run(entry: &Entry, values: Map<String, Value>) -> RunData {
+fn run(entry: &Entry) -> RunData {
     let number = |key: &str| entry.get(key).and_then(Value::as_u64).unwrap_or(0);
     let triple = |key: &str| {
         let at = |index: usize| {
@@ -148,11 +108,12 @@ fn run(entry: &Entry, values: Map<String, Value>) -> RunData {
         [0, 1, 2].map(|index| at(index).unwrap_or(0.0))
     };
     let inside = |key: &str, name: &str| entry.get(key).and_then(|value| value.get(name));
+    let swept = entry.get("swept").and_then(Value::as_object);
     RunData {
         id: text(entry, "id").into(),
         status: text(entry, "status").into(),
         error: entry.get("error").and_then(Value::as_str).map(String::from),
-        values,
+        values: swept.cloned().unwrap_or_default(),
         seed: number("seed"),
         samples: number("samples"),
         device: inside("device", "name")
@@ -169,77 +130,4 @@ fn run(entry: &Entry, values: Map<String, Value>) -> RunData {
         group: None,
         image: None,
     }
-}
-
-/// Answers the question for every group whose pictures allow it; returns what is to be said of the others.
-fn analyse(
-    folder: &Path,
-    entries: &[&Entry],
-    groups: &mut Vec<Gathered>,
-    regions: Vec<Region>,
-    reference: Option<Reference>,
-    data: &mut ReportData,
-) -> Result<Vec<String>> {
-    let mut left_out = Vec::new();
-    let mut collected: Vec<(Runs, Vec<usize>)> = Vec::new();
-    for group in groups.drain(..) {
-        match collect(folder, entries, &group, data) {
-            Ok(runs) => collected.push((runs, group.runs)),
-            Err(error) => left_out.push(format!("Not analysed: {error}.")),
-        }
-    }
-    let Some(size) = data.images.first().map(|image| [image.width, image.height]) else {
-        return Ok(left_out);
-    };
-    let question = Question::new(size, reference, regions, Terms::default(), collected.len())?;
-    let mut answered = Vec::new();
-    for (runs, members) in collected {
-        let name = runs.name.clone();
-        match question.answer(runs) {
-            Ok(group) => {
-                members
-                    .iter()
-                    .for_each(|run| data.runs[*run].group = Some(answered.len()));
-                answered.push(group);
-            }
-            Err(error) => left_out.push(format!("Not analysed: {name}: {error}.")),
-        }
-    }
-    if !answered.is_empty() {
-        Analysis::new(question, answered, None)?.fill(data);
-    }
-    Ok(left_out)
-}
-
-/// Reads a group's pictures, one after another.
-fn collect(
-    folder: &Path,
-    entries: &[&Entry],
-    group: &Gathered,
-    data: &mut ReportData,
-) -> Result<Runs> {
-    let mut runs = Runs::new(&group.name, group.values.clone());
-    for &number in group.runs.iter().filter(|run| is_ok(entries[**run])) {
-        let picture = picture(folder, entries[number])?;
-        let row = &mut data.runs[number];
-        runs.add(&picture, row.seconds)?;
-        let room = (MOST_BYTES / (PIXEL * picture.pixels())).min(MOST_IMAGES);
-        if data.images.len() < room.max(1) {
-            row.image = Some(data.images.len());
-            let name = format!("{}, seed {}", group.name, row.seed);
-            data.images.push(picture_image(&name, &picture));
-        }
-    }
-    if runs.is_empty() {
-        return Err(Error::Usage(format!("{}: no run is finished", group.name)));
-    }
-    Ok(runs)
-}
-
-fn picture(folder: &Path, entry: &Entry) -> Result<Picture> {
-    read_exr(
-        folder
-            .join("images")
-            .join(format!("{}.exr", text(entry, "id"))),
-    )
 }

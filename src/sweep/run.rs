@@ -1,39 +1,30 @@
-//! Making the runs of a plan, one after another, on one device.
+//! Making the runs of an experiment and their references, one after another, on one device.
 
+use super::attempt::{Attempt, persist};
+use super::expected::PlannedReference;
+use super::experiment::{Experiment, reference_file};
 use super::ledger::{Entry, Ledger, Status};
-use super::plan::{Base, Plan, Planned};
+use super::plan::Planned;
+use super::progress::{Pace, Progress, Step};
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::{Picture, Target};
-use crate::render::{self, Task};
+use crate::film::{Picture, Target, read_record};
 use crate::scene::Scene;
 use serde_json::{Map, Value, json};
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What is done about runs that fail.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rules {
     /// Stop at the first.
     pub fail_fast: bool,
-    /// Try each so many times more.
+    /// Try each so many times more; references, too.
     pub retries: u32,
-    /// Give a run up after so long.
+    /// Give a run up after so long; a reference has its time.
     pub timeout: Option<Duration>,
-}
-
-/// Where a sweep is.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
-    /// Runs that are finished, those of earlier calls included, and all.
-    pub done: usize,
-    pub total: usize,
-    /// The one in hand.
-    pub run: &'a Planned,
-    /// By the speed so far; none before the first run of this call.
-    pub left: Option<Duration>,
 }
 
 /// How a sweep ended.
@@ -47,25 +38,30 @@ pub struct Summary {
     pub stopped: bool,
 }
 
-/// Gets a device, at the start and after one was lost.
-type Open<'a> = dyn FnMut() -> Result<Box<dyn Device>> + 'a;
-/// Hears how far the sweep is, and may stop it.
-type Watch<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
-
-/// A plan with the folder that it goes to.
-pub struct Sweep<'a> {
-    base: &'a Base,
-    plan: &'a Plan,
-    images: PathBuf,
-    ledger: Ledger,
-    rules: Rules,
+/// What became of the references.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReferenceSummary {
+    pub made: usize,
+    /// Those that were there already.
+    pub found: usize,
+    /// Name and reason of each that could not be made.
+    pub failed: Vec<(String, String)>,
+    pub stopped: bool,
 }
 
-/// How one attempt at a run ended.
-enum Attempt {
-    Ok(Box<Picture>),
-    Bad(Status, String),
-    Stopped,
+/// Gets a device, at the start and after one was lost.
+pub type Open<'a> = dyn FnMut() -> Result<Box<dyn Device>> + 'a;
+/// Hears how far the sweep is, and may stop it.
+pub type Watch<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+
+/// An experiment with the folder that it goes to.
+pub struct Sweep<'a> {
+    experiment: &'a Experiment,
+    folder: PathBuf,
+    ledger: Ledger,
+    rules: Rules,
+    device: Option<Box<dyn Device>>,
+    pace: Pace,
 }
 
 impl<'a> Sweep<'a> {
@@ -73,18 +69,28 @@ impl<'a> Sweep<'a> {
     ///
     /// # Errors
     /// [`Error::Create`], or [`Error::Input`] for a ledger that cannot be read.
-    pub fn new(base: &'a Base, plan: &'a Plan, folder: &Path, rules: Rules) -> Result<Self> {
+    pub fn new(experiment: &'a Experiment, folder: &Path, rules: Rules) -> Result<Self> {
         let images = folder.join("images");
         fs::create_dir_all(&images).map_err(|source| Error::Create {
-            path: images.clone(),
+            path: images,
             source,
         })?;
+        let ledger = Ledger::open(folder)?;
+        let open = experiment.plan.runs.iter();
+        let runs = open
+            .filter(|run| !ledger.knows(&run.id))
+            .map(|run| run.paths);
+        let references = experiment.references(&|_| true)?;
+        let is_open = |reference: &&PlannedReference| !is_there(folder, &reference.id);
+        let references = references.iter().filter(is_open);
+        let paths = runs.chain(references.map(|reference| reference.paths));
         Ok(Self {
-            base,
-            plan,
-            images,
-            ledger: Ledger::open(folder)?,
+            pace: Pace::new(paths.fold(0, u64::saturating_add)),
+            experiment,
+            folder: folder.into(),
+            ledger,
             rules,
+            device: None,
         })
     }
 
@@ -102,33 +108,24 @@ impl<'a> Sweep<'a> {
     /// Those of the outputs, which concern all runs, and of opening a device. A run that fails by
     /// itself is an entry in the ledger.
     pub fn go(&mut self, open: &mut Open, watch: &mut Watch) -> Result<Summary> {
-        let started = Instant::now();
         let mut summary = Summary::default();
-        let mut device = None;
-        let (mut paths_made, total) = (0, self.plan.runs.len());
-        for (index, run) in self.plan.runs.iter().enumerate() {
+        let runs = &self.experiment.plan.runs;
+        for (done, run) in runs.iter().enumerate() {
             if self.ledger.has(&run.id)? {
                 summary.skipped += 1;
                 continue;
             }
-            let paths_left: u64 = self.plan.runs[index..].iter().map(|run| run.paths).sum();
-            let rate = started.elapsed().as_secs_f64() / paths_made as f64;
-            let progress = Progress {
-                done: index,
-                total,
-                run,
-                left: (paths_made > 0).then(|| Duration::from_secs_f64(rate * paths_left as f64)),
-            };
-            if watch(progress).is_break() {
+            let step = (done, runs.len(), Step::Run(run));
+            if watch(self.pace.progress(step, 0)).is_break() {
                 summary.stopped = true;
                 break;
             }
-            match self.make(run, &mut device, open, &mut || watch(progress))? {
+            match self.make(run, step, open, watch)? {
                 Some(Status::Ok) => summary.made += 1,
                 Some(_) => summary.failed += 1,
                 None => summary.stopped = true,
             }
-            paths_made += run.paths;
+            self.pace.add(run.paths);
             if summary.stopped || (summary.failed > 0 && self.rules.fail_fast) {
                 break;
             }
@@ -140,85 +137,102 @@ impl<'a> Sweep<'a> {
     fn make(
         &mut self,
         run: &Planned,
-        device: &mut Option<Box<dyn Device>>,
+        step: (usize, usize, Step),
         open: &mut Open,
-        watch: &mut dyn FnMut() -> ControlFlow<()>,
+        watch: &mut Watch,
     ) -> Result<Option<Status>> {
-        let scene = self.base.scene(&run.point)?;
-        let mut attempts = 0;
-        loop {
-            attempts += 1;
-            let mut on = match device.take() {
-                Some(device) => device,
-                None => open()?,
-            };
-            let attempt = self.attempt(&scene, on.as_mut(), watch);
-            let lost = matches!(attempt, Attempt::Bad(Status::DeviceLost, _));
-            // A lost device does not come back, but another one may.
-            *device = (!lost).then_some(on);
-            match attempt {
-                Attempt::Stopped => return Ok(None),
-                Attempt::Bad(..) if attempts <= self.rules.retries => {}
-                Attempt::Bad(status, error) => {
-                    let entry = entry(run, &scene, None, status, Some(error), attempts);
-                    self.ledger.append(&entry)?;
-                    return Ok(Some(status));
+        let scene = self.experiment.base.scene(&run.point)?;
+        let pace = self.pace;
+        let mut hear = |paths| watch(pace.progress(step, paths));
+        let (attempt, attempts) = persist(&scene, &mut self.device, open, self.rules, &mut hear)?;
+        let (status, entry) = match attempt {
+            Attempt::Stopped => return Ok(None),
+            Attempt::Bad(status, error) => {
+                let entry = entry(run, &scene, None, status, Some(error), attempts);
+                (status, entry)
+            }
+            Attempt::Ok(picture) => {
+                let record = self.write("images", &run.id, *picture)?;
+                let entry = entry(run, &scene, Some(record), Status::Ok, None, attempts);
+                (Status::Ok, entry)
+            }
+        };
+        self.ledger.append(&entry)?;
+        Ok(Some(status))
+    }
+
+    /// Makes the references of the finished runs that are not there yet. One that cannot be made is a line of
+    /// the summary: it costs no run.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a ledger that cannot be read.
+    pub fn references(&mut self, open: &mut Open, watch: &mut Watch) -> Result<ReferenceSummary> {
+        let mut summary = ReferenceSummary::default();
+        // Another process may have made some of the runs.
+        self.ledger.refresh()?;
+        let ledger = &self.ledger;
+        let all = self.experiment.references(&|run| ledger.knows(&run.id))?;
+        for (done, reference) in all.iter().enumerate() {
+            if is_there(&self.folder, &reference.id) {
+                summary.found += 1;
+                continue;
+            }
+            let step = (done, all.len(), Step::Reference(reference));
+            if watch(self.pace.progress(step, 0)).is_break() {
+                summary.stopped = true;
+                break;
+            }
+            match self.make_reference(reference, step, open, watch) {
+                Ok(true) => summary.made += 1,
+                Ok(false) => {
+                    summary.stopped = true;
+                    break;
                 }
-                Attempt::Ok(picture) => {
-                    let record = self.write(run, *picture)?;
-                    let entry = entry(run, &scene, Some(record), Status::Ok, None, attempts);
-                    self.ledger.append(&entry)?;
-                    return Ok(Some(Status::Ok));
-                }
+                Err(error) => summary
+                    .failed
+                    .push((reference.name.clone(), error.to_string())),
+            }
+            self.pace.add(reference.paths);
+        }
+        Ok(summary)
+    }
+
+    /// False if it was stopped.
+    fn make_reference(
+        &mut self,
+        reference: &PlannedReference,
+        step: (usize, usize, Step),
+        open: &mut Open,
+        watch: &mut Watch,
+    ) -> Result<bool> {
+        let pace = self.pace;
+        let mut hear = |paths| watch(pace.progress(step, paths));
+        let rules = Rules {
+            timeout: None,
+            ..self.rules
+        };
+        let scene = &reference.scene;
+        match persist(scene, &mut self.device, open, rules, &mut hear)?.0 {
+            Attempt::Stopped => Ok(false),
+            Attempt::Bad(_, error) => Err(Error::DeviceLost(error)),
+            Attempt::Ok(picture) => {
+                let folder = self.folder.join("reference");
+                fs::create_dir_all(&folder).map_err(|source| Error::Create {
+                    path: folder,
+                    source,
+                })?;
+                self.write("reference", &reference.id, *picture)?;
+                Ok(true)
             }
         }
     }
 
-    fn attempt(
-        &self,
-        scene: &Scene,
-        device: &mut dyn Device,
-        watch: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Attempt {
-        let started = Instant::now();
-        let task = Task::new(scene);
-        let (mut stopped, mut late) = (false, false);
-        let rendering = render::render(device, &task, &mut |_| {
-            late = self
-                .rules
-                .timeout
-                .is_some_and(|limit| started.elapsed() > limit);
-            stopped = watch().is_break();
-            if late || stopped {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        match rendering {
-            Ok(rendering) if rendering.complete => {
-                let mut picture = render::picture(&task, device.info(), &rendering, &[]);
-                picture.record.seconds.total = started.elapsed().as_secs_f64();
-                Attempt::Ok(Box::new(picture))
-            }
-            Ok(_) if stopped => Attempt::Stopped,
-            Ok(_) => {
-                let seconds = self.rules.timeout.unwrap_or_default().as_secs_f64();
-                Attempt::Bad(Status::Timeout, format!("not done after {seconds} s"))
-            }
-            Err(error @ Error::DeviceLost(_)) => {
-                Attempt::Bad(Status::DeviceLost, error.to_string())
-            }
-            Err(error) => Attempt::Bad(Status::Failed, error.to_string()),
-        }
-    }
-
-    /// Writes both files and returns the record.
-    fn write(&self, run: &Planned, mut picture: Picture) -> Result<Map<String, Value>> {
-        let names = ["exr", "png"].map(|extension| format!("{}.{extension}", run.id));
-        picture.record.outputs = names.iter().map(|name| format!("images/{name}")).collect();
-        for name in names {
-            Target::prepare(self.images.join(name))?.write(&picture)?;
+    /// Writes both files and returns the record. The EXR comes last: what has one is whole.
+    fn write(&self, room: &str, id: &str, mut picture: Picture) -> Result<Map<String, Value>> {
+        let names = ["exr", "png"].map(|extension| format!("{room}/{id}.{extension}"));
+        picture.record.outputs = names.to_vec();
+        for name in names.iter().rev() {
+            Target::prepare(self.folder.join(name))?.write(&picture)?;
         }
         match serde_json::to_value(&picture.record) {
             Ok(Value::Object(record)) => Ok(record),
@@ -227,6 +241,12 @@ impl<'a> Sweep<'a> {
             ))),
         }
     }
+}
+
+/// Whether a reference has been made: a picture comes into the folder whole or not at all.
+fn is_there(folder: &Path, id: &str) -> bool {
+    let record = read_record(reference_file(folder, id, "exr"));
+    record.is_ok_and(|(record, _)| record.complete)
 }
 
 /// A line of the ledger. A run without a picture has its knobs all the same.

@@ -1,0 +1,260 @@
+//! A sweep's folder read back: what its ledger and its pictures say. Nothing is rendered here.
+
+use super::experiment::{Experiment, ReferenceOf, reference_file};
+use super::ledger::{Entry, Ledger, Status};
+use crate::analysis::{Analysis, Question, Reference, Runs};
+use crate::compare::verdict::Terms;
+use crate::error::{Error, Result};
+use crate::film::{Picture, read_exr};
+use serde_json::{Map, Value};
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+/// What a folder holds of an experiment.
+#[derive(Clone, Debug, Default)]
+pub struct Answer {
+    /// The ledger's lines of the experiment's runs, in the order of the grid: `seconds.render`, `paths` and
+    /// `rays` of a run are here.
+    pub entries: Vec<Entry>,
+    /// None where no group could be analysed.
+    pub analysis: Option<Analysis>,
+    /// For each group of the analysis the entries that it is of: indices into `entries`.
+    pub members: Vec<Vec<usize>>,
+    /// What could not be analysed and why, in sentences.
+    pub left_out: Vec<String>,
+}
+
+/// Sees the pictures of the runs, each with the index of its entry, as they are read.
+pub type Look<'a> = dyn FnMut(usize, &Picture) + 'a;
+
+impl Answer {
+    /// Reads ledger, references and pictures, every file once and one picture of a run at a time: memory holds
+    /// the references and three maps of each group.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a ledger that cannot be read. A picture that cannot be read or does not belong to
+    /// the others leaves its group out, and `left_out` says so.
+    pub fn read(folder: &Path, experiment: &Experiment, look: &mut Look) -> Result<Self> {
+        let plan = &experiment.plan;
+        let number = |entry: &Entry| entry.get("run").and_then(Value::as_u64);
+        let of_id: HashMap<&str, usize> = plan
+            .runs
+            .iter()
+            .enumerate()
+            .map(|(index, run)| (run.id.as_str(), index))
+            .collect();
+        let mut entries = Ledger::open(folder)?.entries()?;
+        entries.retain(|entry| of_id.contains_key(text(entry, "id")));
+        entries.sort_by_key(number);
+        let mut answer = Self {
+            entries,
+            ..Self::default()
+        };
+        let references = References::read(folder, experiment, &mut answer)?;
+        let of_run = |entry: &Entry| of_id.get(text(entry, "id")).copied();
+        let mut groups = gather(&answer.entries);
+        for group in &mut groups {
+            let first = group.runs.first().map(|run| &answer.entries[*run]);
+            group.reference = first
+                .and_then(of_run)
+                .and_then(|run| references.of_run[run]);
+        }
+        answer.analyse(folder, experiment, groups, references.all, look)?;
+        Ok(answer)
+    }
+
+    /// The entries of a group's runs.
+    pub fn runs(&self, group: usize) -> impl Iterator<Item = &Entry> {
+        self.members[group].iter().map(|run| &self.entries[*run])
+    }
+
+    /// Answers the question for every group whose pictures allow it.
+    fn analyse(
+        &mut self,
+        folder: &Path,
+        experiment: &Experiment,
+        groups: Vec<Gathered>,
+        references: Vec<Reference>,
+        look: &mut Look,
+    ) -> Result<()> {
+        let sized: Vec<Gathered> = groups
+            .into_iter()
+            .filter(|group| self.has_runs(group, experiment.size))
+            .collect();
+        let regions = experiment.regions.clone();
+        let terms = Terms::default();
+        let question = Question::new(experiment.size, references, regions, terms, sized.len())?;
+        let mut answered = Vec::new();
+        for group in sized {
+            let runs = collect(folder, &self.entries, &group, look);
+            match runs.and_then(|runs| question.answer(runs, group.reference)) {
+                Ok(one) => {
+                    answered.push(one);
+                    self.members.push(group.runs);
+                }
+                Err(error) => self.left_out.push(format!("Not analysed: {error}.")),
+            }
+        }
+        if !answered.is_empty() {
+            self.analysis = Some(Analysis::new(question, answered, None)?);
+        }
+        Ok(())
+    }
+
+    /// Whether a group has finished runs, of the size that is analysed; if not, says so.
+    fn has_runs(&mut self, group: &Gathered, [width, height]: [u32; 2]) -> bool {
+        let Some(first) = group.runs.first() else {
+            let name = &group.name;
+            self.left_out
+                .push(format!("Not analysed: {name}: no run is finished."));
+            return false;
+        };
+        let side = |key: &str| self.entries[*first].get(key).and_then(Value::as_u64);
+        let fits = [side("width"), side("height")] == [width, height].map(|side| Some(side.into()));
+        if !fits {
+            self.left_out.push(format!(
+                "Not analysed: {}: its pictures have not the size of the first group's, {width} x {height}.",
+                group.name
+            ));
+        }
+        fits
+    }
+}
+
+/// The references that are there, and which of them each of the plan's runs has.
+struct References {
+    all: Vec<Reference>,
+    of_run: Vec<Option<usize>>,
+}
+
+impl References {
+    fn read(folder: &Path, experiment: &Experiment, answer: &mut Answer) -> Result<Self> {
+        let finished: HashSet<&str> = answer
+            .entries
+            .iter()
+            .filter(|entry| is_ok(entry))
+            .map(|entry| text(entry, "id"))
+            .collect();
+        let planned = experiment.own_references(&|run| finished.contains(run.id.as_str()))?;
+        let (mut all, mut places, mut missing) = (Vec::new(), Vec::new(), Vec::new());
+        for planned in &planned {
+            let Some(planned) = planned else {
+                places.push(None);
+                continue;
+            };
+            let picture = read_exr(reference_file(folder, &planned.id, "exr"));
+            match picture.and_then(|picture| Reference::new(&planned.name, picture)) {
+                Ok(reference) => {
+                    places.push(Some(all.len()));
+                    all.push(reference);
+                }
+                Err(_) => {
+                    places.push(None);
+                    missing.push(planned.name.as_str());
+                }
+            }
+        }
+        answer.left_out.extend(not_there(&missing));
+        let of_run = experiment.reference_of_runs();
+        let given = of_run.iter().flatten().find_map(|of| match of {
+            ReferenceOf::Given(reference) => Some(*reference),
+            ReferenceOf::Own(_) => None,
+        });
+        all.extend(given.cloned());
+        let place = |of: &Option<ReferenceOf>| match of {
+            Some(ReferenceOf::Given(_)) => Some(0),
+            Some(ReferenceOf::Own(place)) => places[*place],
+            None => None,
+        };
+        Ok(Self {
+            of_run: of_run.iter().map(place).collect(),
+            all,
+        })
+    }
+}
+
+/// What is said of references that have not been made.
+fn not_there(names: &[&str]) -> Option<String> {
+    let (first, others) = names.split_first()?;
+    let others = match others.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    Some(format!(
+        "Without bias and error: {first}{others} is not there yet; the same command makes it."
+    ))
+}
+
+pub(super) fn text<'e>(entry: &'e Entry, key: &str) -> &'e str {
+    entry.get(key).and_then(Value::as_str).unwrap_or_default()
+}
+
+fn is_ok(entry: &Entry) -> bool {
+    text(entry, "status") == Status::Ok.name()
+}
+
+/// Runs that differ in their seed alone.
+struct Gathered {
+    name: String,
+    values: Map<String, Value>,
+    /// The finished ones: indices into the entries.
+    runs: Vec<usize>,
+    reference: Option<usize>,
+}
+
+/// Says which runs belong together.
+fn gather(entries: &[Entry]) -> Vec<Gathered> {
+    let mut groups: Vec<Gathered> = Vec::new();
+    let mut places: HashMap<String, usize> = HashMap::new();
+    for (number, entry) in entries.iter().enumerate() {
+        let swept = entry.get("swept").and_then(Value::as_object);
+        let mut shared = swept.cloned().unwrap_or_default();
+        shared.shift_remove("render.seed");
+        let key = Value::Object(shared.clone()).to_string();
+        let place = *places.entry(key).or_insert_with(|| {
+            groups.push(Gathered {
+                name: name(&shared),
+                values: shared,
+                runs: Vec::new(),
+                reference: None,
+            });
+            groups.len() - 1
+        });
+        if is_ok(entry) {
+            groups[place].runs.push(number);
+        }
+    }
+    groups
+}
+
+/// `cone, 16`: the values, for a reader who knows the axes.
+fn name(values: &Map<String, Value>) -> String {
+    let plain = |value: &Value| match value {
+        Value::String(text) => text.clone(),
+        value => value.to_string(),
+    };
+    let all: Vec<String> = values.values().map(plain).collect();
+    if all.is_empty() {
+        "all runs".into()
+    } else {
+        all.join(", ")
+    }
+}
+
+/// Reads a group's pictures, one after another.
+fn collect(folder: &Path, entries: &[Entry], group: &Gathered, look: &mut Look) -> Result<Runs> {
+    let mut runs = Runs::new(&group.name, group.values.clone());
+    for &number in &group.runs {
+        let entry = &entries[number];
+        let file = format!("{}.exr", text(entry, "id"));
+        let picture = read_exr(folder.join("images").join(file))?;
+        let seconds = entry.get("seconds").and_then(|all| all.get("render"));
+        let seconds = seconds.and_then(Value::as_f64).unwrap_or(0.0);
+        runs.add(&picture, seconds)?;
+        look(number, &picture);
+    }
+    if runs.is_empty() {
+        return Err(Error::Usage(format!("{}: no run is finished", group.name)));
+    }
+    Ok(runs)
+}
