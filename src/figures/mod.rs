@@ -6,6 +6,7 @@
 //! ```
 
 mod about;
+mod escape;
 mod figure;
 pub mod files;
 pub mod page;
