@@ -15,6 +15,7 @@
 //!                                 └→ verdict ───────────────┘
 //!
 //! grid ─sweep→ runs.jsonl, pictures ─analysis→ ReportData ─report→ report.html
+//! studies ─reproduce→ folders of sweeps ─figures→ index.html, claims.md, plots, data
 //! ```
 //!
 //! One direction: a room knows the rooms before it, never those after it.
@@ -32,6 +33,8 @@
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`sweep`] | a grid of renders: axes, plan, ledger, table |
 //! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
+//! | [`figures`] | the paper's figures from what sweeps wrote: numbers, sentences, plots, pages; never renders |
+//! | [`reproduce`] | renders what the figures are made of |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`theory`] | closed forms and quadratures of the paper's samplers and weights |
 //! | [`points`] | the samplers alone, as data or as a plot |
@@ -84,6 +87,7 @@ pub mod place;
 pub mod points;
 pub mod render;
 pub mod report;
+pub mod reproduce;
 pub mod scene;
 pub mod shader;
 pub mod sweep;

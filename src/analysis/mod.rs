@@ -68,7 +68,7 @@ mod reference;
 mod room;
 mod runs;
 mod sweep;
-mod words;
+pub(crate) mod words;
 
 pub use energy::Energy;
 pub use group::{Group, Maps, RegionFigures};

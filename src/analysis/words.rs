@@ -3,7 +3,7 @@
 use crate::report::data::Interval;
 
 /// As many decimals as three digits take; large numbers keep all before the point.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let decimals = match value.abs() {
         0.0 => 0,
         size => (2 - size.log10().floor() as i32).clamp(0, 9) as usize,
@@ -12,13 +12,13 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// 12.3 % (95 %: 11.9 to 12.7), of a share.
-pub(super) fn percent(share: Interval) -> String {
+pub(crate) fn percent(share: Interval) -> String {
     let [value, low, high] = [share.value, share.low, share.high].map(|part| 100.0 * part);
     format!("{} % ({})", number(value), ends(low, high))
 }
 
 /// 1.47 (95 %: 1.40 to 1.54).
-pub(super) fn ranged(value: Interval) -> String {
+pub(crate) fn ranged(value: Interval) -> String {
     format!("{} ({})", number(value.value), ends(value.low, value.high))
 }
 
@@ -27,7 +27,7 @@ fn ends(low: f64, high: f64) -> String {
 }
 
 /// The same with the sign turned.
-pub(super) fn negated(value: Interval) -> Interval {
+pub(crate) fn negated(value: Interval) -> Interval {
     Interval {
         value: -value.value,
         low: -value.high,
@@ -36,7 +36,7 @@ pub(super) fn negated(value: Interval) -> Interval {
 }
 
 /// 1 / value.
-pub(super) fn inverted(value: Interval) -> Interval {
+pub(crate) fn inverted(value: Interval) -> Interval {
     Interval {
         value: 1.0 / value.value,
         low: 1.0 / value.high,
@@ -45,7 +45,7 @@ pub(super) fn inverted(value: Interval) -> Interval {
 }
 
 /// a, b and c.
-pub(super) fn list(names: &[&str]) -> String {
+pub(crate) fn list(names: &[&str]) -> String {
     match names {
         [] => String::new(),
         [one] => (*one).into(),

@@ -3,6 +3,7 @@
 mod check;
 mod devices;
 mod diff;
+mod figures;
 mod knobs;
 mod merge;
 mod options;
@@ -57,6 +58,7 @@ enum Command {
     Merge(merge::Command),
     Diff(Box<diff::Command>),
     Sweep(Box<sweep::Command>),
+    Figures(figures::Command),
 }
 
 /// Runs the program and says with which code it ends.
@@ -92,6 +94,7 @@ fn run(line: Lampray) -> Result<ExitCode> {
         Command::Rerun(command) => command.run(line.output),
         Command::Merge(command) => command.run(line.output),
         Command::Sweep(command) => command.run(line.output),
+        Command::Figures(command) => command.run(line.output),
     }?;
     Ok(signal::exit_code())
 }

@@ -10,7 +10,7 @@ use crate::report::page;
 use crate::scene::Scene;
 use crate::sweep::{
     About, Axis, Base, Experiment, Grid, Progress, ReferenceRule, ReferenceSummary, Rules, Step,
-    Summary, Sweep, report_data, table,
+    Summary, Sweep, report_data,
 };
 use clap::Args;
 use serde_json::json;
@@ -117,7 +117,7 @@ impl Command {
             false => sweep.references(&mut open, &mut watch)?,
         };
         bar.clear();
-        self.write("table.csv", &table(&sweep.entries()?))?;
+        sweep.write_table()?;
         let about = About {
             title: title(&self.scene),
             command: command_line(),
@@ -325,7 +325,7 @@ fn time_a_path(scene: &Scene, device: &mut dyn Device) -> Result<f64> {
 }
 
 /// As it was typed, for a shell.
-fn command_line() -> String {
+pub(super) fn command_line() -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
     let quoted = |word: String| match word.chars().all(plain) && !word.is_empty() {
         true => word,
@@ -339,7 +339,7 @@ fn command_line() -> String {
 }
 
 /// Which run of how many it is, what it is of, and the time left.
-fn describe(progress: &Progress) -> String {
+pub(super) fn describe(progress: &Progress) -> String {
     let place = format!("{}/{}", progress.done + 1, progress.total);
     let left = progress.left.map_or(String::new(), |left| {
         format!(", about {} left", spelled(left))
@@ -373,7 +373,7 @@ fn spelled(duration: Duration) -> String {
     }
 }
 
-fn remark(text: &str, output: Output) {
+pub(super) fn remark(text: &str, output: Output) {
     if !output.quiet {
         note(text);
     }

@@ -9,6 +9,7 @@ use super::progress::{Pace, Progress, Step};
 use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::{Picture, Target, read_record};
+use crate::place::Place;
 use crate::scene::Scene;
 use serde_json::{Map, Value, json};
 use std::fs;
@@ -94,12 +95,27 @@ impl<'a> Sweep<'a> {
         })
     }
 
+    /// The device that is open, for the next sweep: its pipelines are kept.
+    pub fn into_device(self) -> Option<Box<dyn Device>> {
+        self.device
+    }
+
     /// Everything that the folder's ledger holds.
     ///
     /// # Errors
     /// [`Error::Input`].
     pub fn entries(&self) -> Result<Vec<Entry>> {
         self.ledger.entries()
+    }
+
+    /// Writes `table.csv` of everything that the folder holds.
+    ///
+    /// # Errors
+    /// Those of reading the ledger and of writing the file.
+    pub fn write_table(&self) -> Result<()> {
+        let text = super::table(&self.entries()?);
+        let place = Place::prepare(self.folder.join("table.csv"))?;
+        place.write(|sink| sink.write_all(text.as_bytes()))
     }
 
     /// Makes every run that is not finished yet.

@@ -1,0 +1,301 @@
+//! Figure 8: run time against the limit on reflections.
+
+use super::build::{Line, difference, median_of, ratio};
+use super::data::Data;
+use super::figure::*;
+use super::study::THRESHOLD;
+use crate::analysis::Quantity;
+use crate::analysis::words::{number, ranged};
+use crate::error::Result;
+use crate::theory::hits;
+use std::fmt::Write as _;
+
+/// A study, what it is called, and the share of paths that go on from a hit.
+const STUDIES: [(&str, &str, f64); 2] = [
+    ("fig8-limit", "limit alone", 1.0),
+    ("fig8-threshold", "limit and threshold 0.75", THRESHOLD),
+];
+const RULES: [(&str, &str); 2] = [("paper", "as published"), ("corrected", "corrected")];
+const LIMITS: u32 = 10;
+/// A curve whose later half rises less than this share of its earlier half is no line.
+const NEARLY: f64 = 0.8;
+
+/// Run time of one kind of paths at every limit.
+struct Curve {
+    study: usize,
+    rules: usize,
+    steps: Vec<Step>,
+    /// Time through the limit, through the mean number of hits, and through the rays.
+    by_limit: Line,
+    by_hits: Line,
+    by_rays: Line,
+}
+
+struct Step {
+    limit: u32,
+    /// Tracing time of a run, median of the repeats.
+    seconds: Quantity,
+    rays: f64,
+    hits: f64,
+}
+
+impl Curve {
+    fn new(data: &Data, study: usize, rules: usize) -> Result<Self> {
+        let (name, _, survival) = STUDIES[study];
+        let step = |limit: u32| {
+            let text = limit.to_string();
+            let values = [
+                ("render.preset", RULES[rules].0),
+                ("render.max_bounces", text.as_str()),
+            ];
+            Ok(Step {
+                limit,
+                seconds: median_of(&data.times(name, &values)?),
+                rays: data.sum(name, &values, "rays")? / data.sum(name, &values, "paths")?.max(1.0),
+                hits: hits(survival, limit),
+            })
+        };
+        let steps: Vec<Step> = (1..=LIMITS).map(step).collect::<Result<_>>()?;
+        let line = |x: fn(&Step) -> f64| {
+            let points: Vec<_> = steps
+                .iter()
+                .map(|step| [x(step), step.seconds.value])
+                .collect();
+            Line::through(&points)
+        };
+        Ok(Self {
+            by_limit: line(|step| f64::from(step.limit)),
+            by_hits: line(|step| step.hits),
+            by_rays: line(|step| step.rays),
+            study,
+            rules,
+            steps,
+        })
+    }
+
+    fn name(&self) -> String {
+        format!("{}, {}", STUDIES[self.study].1, RULES[self.rules].1)
+    }
+
+    /// Time at the last limit over that at the first.
+    fn growth(&self) -> Quantity {
+        ratio(
+            self.steps[self.steps.len() - 1].seconds,
+            self.steps[0].seconds,
+        )
+    }
+
+    /// What the last four limits add over what the first four add: 1 for a line.
+    fn straightness(&self) -> Quantity {
+        let at = |limit: usize| self.steps[limit - 1].seconds;
+        ratio(difference(at(10), at(6)), difference(at(5), at(1)))
+    }
+
+    /// The same of the mean number of hits.
+    fn expected_straightness(&self) -> f64 {
+        let at = |limit: usize| self.steps[limit - 1].hits;
+        (at(10) - at(6)) / (at(5) - at(1))
+    }
+
+    fn points(&self, y: impl Fn(&Step) -> Point) -> Vec<Point> {
+        self.steps.iter().map(y).collect()
+    }
+}
+
+/// # Errors
+/// [`crate::Error::Usage`] where runs are missing.
+pub fn figure(data: &Data) -> Result<Figure> {
+    let mut curves = Vec::new();
+    for study in 0..STUDIES.len() {
+        for rules in 0..RULES.len() {
+            curves.push(Curve::new(data, study, rules)?);
+        }
+    }
+    Ok(Figure {
+        number: 8,
+        title: "Run time against the limit on reflections".into(),
+        claim: "Run time grows almost in proportion to the interruption limit.".into(),
+        reading: format!(
+            "A closed room, so that no path is lost; the limit is the number of surfaces that a path may meet. The paper sets a \
+             threshold t for each object besides; both are measured, without a threshold and with t = {THRESHOLD} everywhere. If each hit is \
+             followed by another with probability q, a path makes (1 - q^N) / (1 - q) hits on average. Times are of tracing alone, on {}.",
+            data.device.name
+        ),
+        verdict: verdict(&curves),
+        results: results(&curves),
+        blocks: vec![Block::Plots(plots(&curves)), Block::Table(table(&curves))],
+        commands: data.commands(8),
+        data: vec![csv(&curves)],
+    })
+}
+
+fn plots(curves: &[Curve]) -> Plots {
+    let limit = || Scale {
+        label: "limit".into(),
+        ..Scale::default()
+    };
+    let times = |rules: usize| {
+        let mine = || curves.iter().filter(move |curve| curve.rules == rules);
+        let x = |step: &Step| f64::from(step.limit);
+        let measured = mine().map(|curve| Series {
+            name: STUDIES[curve.study].1.into(),
+            look: Look::Measured,
+            colour: curve.study,
+            points: curve.points(|step| Point::within(x(step), step.seconds.interval())),
+        });
+        let predicted = mine().map(|curve| Series {
+            name: format!("{}, in proportion to hits", STUDIES[curve.study].1),
+            look: Look::Predicted,
+            colour: curve.study,
+            points: curve.points(|step| Point::exact(x(step), curve.by_hits.at(step.hits))),
+        });
+        Plot::Lines(Lines {
+            title: format!("Run time, {}", RULES[rules].1),
+            x: limit(),
+            y: Scale {
+                label: "seconds".into(),
+                low: Some(0.0),
+                ..Scale::default()
+            },
+            series: measured.chain(predicted).collect(),
+            marks: Vec::new(),
+        })
+    };
+    let rays = Lines {
+        title: "Rays a path".into(),
+        x: limit(),
+        y: Scale {
+            label: "rays a path".into(),
+            low: Some(0.0),
+            ..Scale::default()
+        },
+        series: curves
+            .iter()
+            .enumerate()
+            .map(|(colour, curve)| Series {
+                name: curve.name(),
+                look: Look::Measured,
+                colour,
+                points: curve.points(|step| Point::exact(f64::from(step.limit), step.rays)),
+            })
+            .collect(),
+        marks: Vec::new(),
+    };
+    Plots {
+        name: "fig8-time".into(),
+        caption: "Median tracing time of a run over interleaved repeats, with its 95 % interval; dashed, a fit in proportion to \
+                  (1 - q^N) / (1 - q) plus a constant."
+            .into(),
+        plots: vec![times(0), times(1), Plot::Lines(rays)],
+    }
+}
+
+fn table(curves: &[Curve]) -> Table {
+    let row = |curve: &Curve| {
+        let share = |line: Line| format!("{:.2} %", 100.0 * line.explained);
+        vec![
+            curve.name(),
+            format!("{:.1}", 1e3 * curve.steps[0].seconds.value),
+            ranged(curve.growth().interval()),
+            number(curve.steps[curve.steps.len() - 1].hits),
+            share(curve.by_limit),
+            share(curve.by_hits),
+            share(curve.by_rays),
+        ]
+    };
+    let head = [
+        "paths",
+        "ms at limit 1",
+        "time at limit 10 over limit 1",
+        "hits at limit 10 over limit 1",
+        "explained by the limit",
+        "by (1 - q^N) / (1 - q)",
+        "by rays",
+    ];
+    Table {
+        caption: "Share of the variance of the ten times that a straight line explains.".into(),
+        head: head.map(String::from).to_vec(),
+        rows: curves.iter().map(row).collect(),
+    }
+}
+
+fn find(curves: &[Curve], study: usize, rules: usize) -> &Curve {
+    &curves[study * RULES.len() + rules]
+}
+
+fn verdict(curves: &[Curve]) -> Verdict {
+    let (alone, with) = (find(curves, 0, 0), find(curves, 1, 0));
+    let told = |curve: &Curve| {
+        let interval = curve.straightness().interval();
+        if interval.high < NEARLY {
+            Holds::No
+        } else if interval.low > 0.5 * NEARLY {
+            Holds::Yes
+        } else {
+            Holds::Unknown
+        }
+    };
+    let holds = match (told(alone), told(with)) {
+        (Holds::Unknown, _) | (_, Holds::Unknown) => Holds::Unknown,
+        (Holds::Yes, Holds::Yes) => Holds::Yes,
+        (Holds::No, _) => Holds::No,
+        _ => Holds::Partly,
+    };
+    let words = |curve: &Curve| {
+        format!(
+            "limits 7 to 10 add {} times what limits 2 to 5 add ({} expected)",
+            ranged(curve.straightness().interval()),
+            number(curve.expected_straightness())
+        )
+    };
+    Verdict {
+        holds,
+        text: format!(
+            "With the limit alone run time is a line: {}. With thresholds, as the paper has them (t = {THRESHOLD}), it levels off: {}. It \
+             follows the mean number of hits, (1 - q^N) / (1 - q), which is a line for q = 1 alone.",
+            words(alone),
+            words(with)
+        ),
+    }
+}
+
+fn results(curves: &[Curve]) -> Vec<String> {
+    let sentence = |curve: &Curve| {
+        format!(
+            "{}: {} ms a run and {} ms for each hit a path makes on average; hits explain {:.2} % of the run times, rays {:.2} %, the limit \
+             {:.2} %.",
+            curve.name(),
+            number(1e3 * curve.by_hits.offset),
+            number(1e3 * curve.by_hits.slope),
+            100.0 * curve.by_hits.explained,
+            100.0 * curve.by_rays.explained,
+            100.0 * curve.by_limit.explained
+        )
+    };
+    curves.iter().map(sentence).collect()
+}
+
+fn csv(curves: &[Curve]) -> DataFile {
+    let mut csv = String::from("paths,limit,seconds,low,high,rays_a_path,expected_hits\n");
+    for curve in curves {
+        for step in &curve.steps {
+            let interval = step.seconds.interval();
+            // Writing into a string cannot fail.
+            let _ = writeln!(
+                csv,
+                "\"{}\",{},{},{},{},{},{}",
+                curve.name(),
+                step.limit,
+                interval.value,
+                interval.low,
+                interval.high,
+                step.rays,
+                step.hits
+            );
+        }
+    }
+    DataFile {
+        name: "fig8-time.csv".into(),
+        csv,
+    }
+}
