@@ -9,8 +9,10 @@ mod about;
 mod escape;
 mod figure;
 pub mod files;
+mod names;
 pub mod page;
 pub mod plot;
+mod sheet;
 
 pub use about::About;
 pub use figure::*;
