@@ -3,7 +3,7 @@
 use super::tables;
 use crate::error::Result;
 use crate::figures::escape::markup;
-use crate::figures::{Block, Pictures, Plot, Plots, Shown, plot, sheet};
+use crate::figures::{Block, Pictures, Plots, Shown, plot, sheet};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
@@ -83,21 +83,16 @@ fn picture(cell: &Shown, row: &str, column: &str) -> Result<String> {
 }
 
 fn plots(block: &Plots) -> String {
-    let class = |plot: &Plot| match plot {
-        Plot::Sphere(_) => "plot sphere",
-        Plot::Lines(_) | Plot::Bars(_) => "plot",
-    };
-    let plots: String = block
-        .plots
-        .iter()
-        .map(|each| {
-            format!(
-                "<div class=\"{}\">\n{}</div>\n",
-                class(each),
-                plot::inline(each)
-            )
-        })
-        .collect();
+    // Wider ones are moved under a narrow window rather than made small.
+    const WIDE: f64 = 500.0;
+    let mut plots = String::new();
+    for each in &block.plots {
+        let (svg, width) = plot::inline(each);
+        let wide = if width > WIDE { " wide-plot" } else { "" };
+        plots.push_str(&format!(
+            "<div class=\"plot{wide}\" style=\"--drawn:{width:.0}px\">\n{svg}</div>\n"
+        ));
+    }
     format!(
         "<figure class=\"plots\">\n<div class=\"beside-plots\">\n{plots}</div>\n<figcaption>{}</figcaption>\n</figure>\n",
         markup(&block.caption)
