@@ -51,7 +51,7 @@ pub fn figure(data: &Data) -> Result<Figure> {
 fn balls(data: &Data) -> Result<Pictures> {
     let size = data.analysis(BALLS)?.question.size();
     let mut block = pictures(
-        "fig5-balls",
+        "balls",
         "Matt, directional (spread 0.2) and mirror ball. As published the lamp's reflection is black, and the mirror is \
          lit like chalk besides reflecting.",
         &[""],
@@ -90,7 +90,7 @@ fn strip(data: &Data) -> Result<Pictures> {
     }
     cells.push(cut(data, end(data, "diffuse")?, "matt".into())?);
     let mut block = pictures(
-        "fig5-spread",
+        "spread",
         "The directional ball with growing spread, corrected, between a mirror and a matt ball of the same albedo.",
         &[],
     );
@@ -170,7 +170,7 @@ fn distances(between: &[Between]) -> Plots {
         marks: Vec::new(),
     };
     Plots {
-        name: "fig5-distance".into(),
+        name: "distance".into(),
         caption: "Root mean squared distance of the ball's expected picture to that of a mirror and of a matt ball in its \
                   place, noise taken away; 95 % intervals."
             .into(),

@@ -69,26 +69,31 @@ pub fn chance(p: f64) -> String {
     }
 }
 
-/// Mean squared distance of two groups' expected pictures in a part of them: the squares of the differences
-/// less the noise of both, which is what is expected of them where the pictures are one. The spread over the
-/// pixels gives its error.
+/// Mean squared distance of two groups' expected pictures in a part of them: the squares of the differences D
+/// less the noise w of both, which is what is expected of them where the pictures are one. The square of a
+/// number with variance w has the variance 4 (D^2 - w) w + 2 w^2; channels rise and fall together.
 pub fn squared_distance(a: &Group, b: &Group, width: u32, rect: Rect) -> Quantity {
     let noise = |group: &Group, pixel: usize, channel: usize| {
         let deviation = f64::from(group.maps.deviation[pixel][channel]);
         deviation * deviation / (group.samples * group.runs as f64)
     };
-    let mut squares = Vec::new();
+    let (mut sum, mut variance, mut count) = (0.0, 0.0, 0.0);
     for y in rect.y0..rect.y1 {
         for x in rect.x0..rect.x1 {
             let pixel = (y * width + x) as usize;
-            let square = |channel: usize| {
+            let mut error = 0.0;
+            for channel in 0..3 {
                 let [one, other] = [a, b].map(|group| f64::from(group.maps.mean[pixel][channel]));
-                (one - other).powi(2) - noise(a, pixel, channel) - noise(b, pixel, channel)
-            };
-            squares.push((0..3).map(square).sum::<f64>() / 3.0);
+                let own = noise(a, pixel, channel) + noise(b, pixel, channel);
+                let square = (one - other).powi(2) - own;
+                sum += square / 3.0;
+                error += (4.0 * square.max(0.0) * own + 2.0 * own * own).sqrt() / 3.0;
+            }
+            variance += error * error;
+            count += 1.0;
         }
     }
-    mean_of(&squares)
+    Quantity::new(sum / count, variance / (count * count), f64::INFINITY)
 }
 
 /// Mean of independent numbers with its standard error.

@@ -91,7 +91,7 @@ fn rooms(data: &Data) -> Result<Pictures> {
         limit => format!("limit {limit}"),
     });
     let mut block = pictures(
-        "fig9-rooms",
+        "rooms",
         "As published the mirror ball is lit like chalk from limit 1 on, and the lamp's reflection stays black; corrected, with limit 1 \
          a mirror shows the lamp and nothing else.",
         &columns.each_ref().map(String::as_str),
@@ -161,7 +161,7 @@ fn plots(data: &Data, spheres: &[Vec<Level>; 2]) -> Result<Plots> {
         ));
     }
     Ok(Plots {
-        name: "fig9-energy".into(),
+        name: "energy".into(),
         caption: "Share of the light that is there with each limit: in the hollow ball, with its closed form, and in the room by region."
             .into(),
         plots: vec![lines("Hollow ball", sphere), lines("Room, corrected", room)],

@@ -19,9 +19,11 @@ mod figure;
 pub mod files;
 mod lamps;
 mod limits;
+mod names;
 pub mod page;
 pub mod plot;
 mod points;
+mod sheet;
 mod study;
 mod times;
 

@@ -140,7 +140,7 @@ fn spheres(data: &Data, tested: &[Tested]) -> Plots {
         })
     };
     Plots {
-        name: "fig6-points".into(),
+        name: "points".into(),
         caption: "The paper's colours; the pole is upright, the circles are 30 degrees from it."
             .into(),
         plots: (0..3).map(sphere).collect(),

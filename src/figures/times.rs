@@ -182,7 +182,7 @@ fn plots(curves: &[Curve]) -> Plots {
         marks: Vec::new(),
     };
     Plots {
-        name: "fig8-time".into(),
+        name: "time".into(),
         caption: "Median tracing time of a run over interleaved repeats, with its 95 % interval; dashed, a fit in proportion to \
                   (1 - q^N) / (1 - q) plus a constant."
             .into(),

@@ -3,7 +3,7 @@
 
 use super::RULES;
 use super::rooms::relative_variance;
-use crate::analysis::words::{list, number, ranged};
+use crate::analysis::words::{number, ranged};
 use crate::analysis::{Group, Quantity};
 use crate::error::Result;
 use crate::figures::build::{chance, map};
@@ -113,7 +113,7 @@ impl Alone {
             theory::relative_variance,
         );
         Plots {
-            name: "fig7-one-lamp".into(),
+            name: "one-lamp".into(),
             caption: "One lamp above a plate: dots are measured, dashed lines integrated. As published the cases differ by bias, \
                       divided by their densities by variance."
                 .into(),
@@ -154,10 +154,9 @@ impl Alone {
                 )
             })
             .collect();
-        let words: Vec<&str> = words.iter().map(String::as_str).collect();
         format!(
             "Relative variance of one sample at q = 0.17, corrected: {}.",
-            list(&words)
+            words.join("; ")
         )
     }
 

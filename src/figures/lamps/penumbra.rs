@@ -234,6 +234,7 @@ impl Penumbra {
                 y: Scale {
                     label: "share of the light".into(),
                     low: Some(0.0),
+                    high: Some(1.1),
                     ..Scale::default()
                 },
                 series: measured.chain(laws).chain(truth).collect(),
@@ -241,7 +242,7 @@ impl Penumbra {
             })
         };
         Plots {
-            name: "fig7-penumbra".into(),
+            name: "penumbra".into(),
             caption: "Light on a floor behind a straight edge under a far lamp, from shadow to light; bands are measured, dashed lines \
                       are closed forms."
                 .into(),

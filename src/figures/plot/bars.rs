@@ -13,7 +13,7 @@ use crate::figures::{BarGroup, Bars};
 use crate::report::data::Interval;
 
 /// A plot is as wide as its groups need, within these.
-const LEAST_WIDTH: f64 = 480.0;
+const LEAST_WIDTH: f64 = 464.0;
 const MOST_WIDTH: f64 = 1120.0;
 const LEAST_BAR: f64 = 9.0;
 const MOST_BAR: f64 = 34.0;
@@ -208,6 +208,7 @@ fn fill(canvas: &mut Canvas, plot: &Bars, layout: &Layout) -> f64 {
     name_groups(canvas, plot, frame)
 }
 
+/// Bars, then what theory says of them, then their errors, so that none hides the next.
 fn draw_group(
     canvas: &mut Canvas,
     plot: &Bars,
@@ -217,16 +218,18 @@ fn draw_group(
 ) {
     let Layout { axis, frame, .. } = layout;
     let base = base(plot, axis);
-    for (index, (bar, &[left, right])) in group.bars.iter().zip(stands).enumerate() {
-        let middle = (left + right) / 2.0;
+    let end = |bar: &Option<Interval>| {
         let value = bar.filter(|bar| axis.at(bar.value).is_some());
-        let Some((bar, end)) = value.and_then(|bar| Some((bar, axis.clamped(bar.value)?))) else {
-            let at = [middle, base.min(frame.bottom) - 5.0];
+        value.and_then(|bar| Some((bar, axis.clamped(bar.value)?)))
+    };
+    for (index, (bar, &[left, right])) in group.bars.iter().zip(stands).enumerate() {
+        let class = format!("bar f{}", colour(colour_of(plot, index)));
+        let Some((_, end)) = end(bar) else {
+            let at = [(left + right) / 2.0, base.min(frame.bottom) - 5.0];
             canvas.text(&Text::new("muted", at, Anchor::Middle, "–"));
             continue;
         };
         let (top, bottom) = (end.min(base), end.max(base));
-        let class = format!("f{}", colour(colour_of(plot, index)));
         canvas.rect(
             &class,
             Frame {
@@ -236,18 +239,21 @@ fn draw_group(
                 bottom,
             },
         );
-        let [low, high] = [bar.low, bar.high].map(|y| axis.clamped(y).unwrap_or(end));
-        if (low - high).abs() > 0.5 {
-            canvas.line("error under", [middle, low], [middle, high]);
-            canvas.line("error error-ink", [middle, low], [middle, high]);
-        }
     }
     for (&predicted, &[left, right]) in group.predicted.iter().zip(stands) {
         let held = predicted.filter(|&value| axis.holds(value));
         if let Some(y) = held.and_then(|value| axis.at(value)) {
-            let ends = ([left - 2.5, y], [right + 2.5, y]);
-            canvas.line("expected under", ends.0, ends.1);
-            canvas.line("expected", ends.0, ends.1);
+            canvas.line("expected", [left - 3.0, y], [right + 3.0, y]);
+        }
+    }
+    for (bar, [left, right]) in group.bars.iter().zip(stands) {
+        let Some((bar, end)) = end(bar) else {
+            continue;
+        };
+        let middle = (left + right) / 2.0;
+        let [low, high] = [bar.low, bar.high].map(|y| axis.clamped(y).unwrap_or(end));
+        if (low - high).abs() > 0.5 {
+            canvas.line("error error-ink", [middle, low], [middle, high]);
         }
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn upright_name(canvas: &mut Canvas, name: &str, width: f64, top: f64
             canvas.text(&Text::new("muted", [0.0, y - 3.5], Anchor::Start, &line));
         }
     }
-    y + 9.0
+    y + 12.0
 }
 
 /// Lines across the plot with their numbers.
@@ -41,7 +41,7 @@ pub(super) fn upright(canvas: &mut Canvas, axis: &Axis, ticks: &[Tick], frame: &
             continue;
         };
         let Some(label) = &tick.label else {
-            canvas.line("rule", [frame.left - 4.0, y], [frame.left, y]);
+            canvas.line("minor", [frame.left - 4.0, y], [frame.left, y]);
             continue;
         };
         let class = if tick.value == 0.0 { "axis" } else { "rule" };

@@ -88,23 +88,25 @@ fn best_along(
     taken: &[Frame],
     lines: &[f64],
 ) -> Option<(Placed, Frame)> {
-    // So much of the data may be hidden at most.
+    // So much of the data may be hidden at most, and so near may it come unpunished.
     const MOST_HIDDEN: usize = 3;
-    let across = [
-        (frame.right - 4.0, Anchor::End),
-        (frame.left + 4.0, Anchor::Start),
-        ((frame.left + frame.right) / 2.0, Anchor::Middle),
-    ];
-    let candidates = [-4.0, 13.0]
-        .into_iter()
-        .flat_map(|shift| across.map(|(x, anchor)| ([x, y + shift], anchor)));
+    const CLEAR: f64 = 3.0;
+    // From the right, where the eye looks for names, to the left.
+    const PLACES: usize = 12;
+    let width = text_width(name, TEXT, false);
+    let room = frame.width() - width - 8.0;
+    let candidates = (0..=PLACES).flat_map(|step| {
+        let x = frame.left + 4.0 + room * (1.0 - step as f64 / PLACES as f64);
+        [-4.0, 13.0].map(|shift| ([x, y + shift], Anchor::Start))
+    });
     candidates
         .filter_map(|(at, anchor)| {
             let filled = text_frame(at, anchor, name, TEXT);
             let inside = filled.top >= frame.top - 2.0 && filled.bottom <= frame.bottom;
             let crossed = lines.iter().any(|&y| y > filled.top && y < filled.bottom);
             let free = !taken.iter().any(|other| other.meets(&filled));
-            let hidden = data.iter().filter(|&&point| filled.holds(point)).count();
+            let near = filled.grown(CLEAR);
+            let hidden = data.iter().filter(|&&point| near.holds(point)).count();
             (inside && free && !crossed && hidden <= MOST_HIDDEN).then_some((
                 hidden,
                 Placed { at, anchor },

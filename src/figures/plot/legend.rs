@@ -48,28 +48,52 @@ pub(super) fn head(canvas: &mut Canvas, title: &str, entries: &[Entry], width: f
     legend(canvas, entries, width, y) + 6.0
 }
 
-/// Entries in rows; returns the lower end.
+/// Entries in as many columns as the width holds; returns the lower end.
 fn legend(canvas: &mut Canvas, entries: &[Entry], width: f64, top: f64) -> f64 {
-    let (mut x, mut y, mut lower) = (0.0, top, top);
-    for entry in entries {
-        let lines = wrap(entry.name, TEXT, false, width - KEY - GAP);
-        let widest = lines
-            .iter()
-            .map(|line| text_width(line, TEXT, false))
-            .fold(0.0, f64::max);
-        let needed = KEY + GAP + widest;
-        if x > 0.0 && x + needed > width {
-            (x, y) = (0.0, lower);
+    let most = width - KEY - GAP;
+    let names: Vec<Vec<String>> = entries
+        .iter()
+        .map(|entry| wrap(entry.name, TEXT, false, most))
+        .collect();
+    let columns = columns(&names, width);
+    let (mut y, mut lower) = (top, top);
+    for (index, (entry, lines)) in entries.iter().zip(&names).enumerate() {
+        let column = index % columns.len();
+        if column == 0 {
+            y = lower;
         }
+        let x = columns[..column].iter().sum::<f64>();
         draw_key(canvas, entry.key, [x, y + LINE / 2.0]);
         for (index, line) in lines.iter().enumerate() {
             let at = [x + KEY + GAP, y + LINE * index as f64 + 11.5];
             canvas.text(&Text::new("ink", at, Anchor::Start, line));
         }
-        x += needed + APART;
         lower = lower.max(y + LINE * lines.len() as f64 + 3.0);
     }
     lower
+}
+
+/// Widths of the columns: the most that fit beside each other.
+fn columns(names: &[Vec<String>], width: f64) -> Vec<f64> {
+    let needed: Vec<f64> = names
+        .iter()
+        .map(|lines| {
+            let widths = lines.iter().map(|line| text_width(line, TEXT, false));
+            KEY + GAP + widths.fold(0.0, f64::max) + APART
+        })
+        .collect();
+    let of = |many: usize| -> Vec<f64> {
+        let column = |first| needed.iter().skip(first).step_by(many).copied();
+        (0..many)
+            .map(|first| column(first).fold(0.0, f64::max))
+            .collect()
+    };
+    let fits = |columns: &Vec<f64>| columns.iter().sum::<f64>() - APART <= width;
+    (1..=names.len())
+        .rev()
+        .map(of)
+        .find(fits)
+        .unwrap_or_else(|| of(1))
 }
 
 fn draw_key(canvas: &mut Canvas, key: Key, [x, y]: [f64; 2]) {

@@ -12,7 +12,7 @@ use super::ticks::{Tick, ticks};
 use super::trace::Field;
 use crate::figures::{Lines, Look, Scale, Series};
 
-const WIDTH: f64 = 480.0;
+const WIDTH: f64 = 464.0;
 /// Names beside line ends may take this much of it.
 const MOST_BESIDE: f64 = 132.0;
 /// So far may such a name be from its line's height, and its line's end from the frame.

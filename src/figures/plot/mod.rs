@@ -59,12 +59,13 @@ pub fn svg(plot: &Plot) -> String {
     element(plot, &view, [&width, &height], &paper, &drawn.body)
 }
 
-/// The same without paper and rules, for a page that has [`page_style`] in its head.
-pub(super) fn inline(plot: &Plot) -> String {
+/// The same without paper and rules, for a page that has [`page_style`] in its head; and its width.
+pub(super) fn inline(plot: &Plot) -> (String, f64) {
     let drawn = draw(plot);
     let [width, height] = [drawn.width, drawn.height].map(number);
     let view = format!("0 0 {width} {height}");
-    element(plot, &view, [&width, &height], "", &drawn.body)
+    let svg = element(plot, &view, [&width, &height], "", &drawn.body);
+    (svg, drawn.width)
 }
 
 /// The rules for every plot of a page.

@@ -52,15 +52,16 @@ const SHAPES: &str = "\
 .lampray-plot .band{stroke:none;opacity:.18}
 .lampray-plot .dot{stroke-width:1.2}
 .lampray-plot .leader{stroke-width:1;opacity:.6}
-.lampray-plot .expected{stroke-width:2.2}
-.lampray-plot .under{stroke-width:5}
+.lampray-plot .expected{stroke-width:1.4}
+.lampray-plot .bar{opacity:.74}
+.lampray-plot .minor{stroke-width:1;opacity:.55}
 .lampray-plot .light{opacity:.07}
 .lampray-plot .outline{fill:none;stroke-width:1}
 .lampray-plot .pole-inside{stroke-width:1;stroke-dasharray:2 4;opacity:.7}
 .lampray-plot .front,.lampray-plot .middle,.lampray-plot .back{stroke-linecap:round}
-.lampray-plot .front{stroke-width:3.4}
-.lampray-plot .middle{stroke-width:2.9;opacity:.88}
-.lampray-plot .back{stroke-width:2.4;opacity:.2}
+.lampray-plot .front{stroke-width:3.6}
+.lampray-plot .middle{stroke-width:3.1;opacity:.85}
+.lampray-plot .back{stroke-width:2.5;opacity:.24}
 .lampray-plot .far{stroke-width:1;opacity:.45}
 .lampray-plot .near{stroke-width:1;opacity:.8}
 .lampray-plot .cap-far{stroke-width:1.2;opacity:.45;stroke-dasharray:3 3}
@@ -100,6 +101,7 @@ fn rules(of: impl Fn(Pair) -> String) -> String {
     rule(".dot", "stroke", PAPER);
     rule(".rule", "stroke", RULE);
     rule(".axis", "stroke", STRONG);
+    rule(".minor", "stroke", STRONG);
     rule(".mark", "stroke", MUTED);
     for side in ["far", "near"] {
         rule(&format!(".{side}"), "stroke", Pair("#bdb8ae", "#4a535d"));
@@ -119,8 +121,6 @@ fn rules(of: impl Fn(Pair) -> String) -> String {
         rule(&format!(".d{index}"), "stroke", DEEP[index]);
         rule(&format!(".t{index}"), "fill", DEEP[index]);
     }
-    // After the ink that it lies under.
-    rule(".under", "stroke", PAPER);
     for (name, pair) in HUES {
         rule(&format!(".{name}"), "stroke", pair);
     }
