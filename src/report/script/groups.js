@@ -38,7 +38,7 @@ function groupColumns() {
   return [
     textColumn("group", "Group", (group) => group.name),
     ...axisColumns(data.groups, false),
-    { ...textColumn("reference", "Reference", (group) => referenceOf(group)?.name ?? null, { help: "What the group is held against" }), absent: () => data.references.length < 2 },
+    { ...textColumn("reference", "Reference", (group) => referenceOf(group)?.name ?? null, { shown: false, help: "What the group is held against" }), absent: () => data.references.length < 2 },
     numberColumn("runs", "Runs", (group) => group.runs, count, { shown: false }),
     numberColumn("samples", "Samples", (group) => group.samples, count, { help: "Samples a pixel" }),
     intervalColumn("seconds", "Seconds", (group) => group.seconds, { help: "Mean tracing time of a run" }),

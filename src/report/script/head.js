@@ -71,7 +71,7 @@ function referenceFacts() {
     ["Its mean radiance", referenceMean(reference)],
   ]);
   const more = references.length - MOST_REFERENCES;
-  if (more > 0) facts.push(["References", `${count(more)} more, each for another expected picture; the table of groups names them.`]);
+  if (more > 0) facts.push(["References", `${count(more)} more, each for another expected picture; a column of the table of groups names them.`]);
   const without = data.groups.filter((group) => referenceOf(group) === null).length;
   if (without > 0) facts.push(["Without reference", `${amount(without, "group")}: only noise and time are known.`]);
   return facts;
