@@ -92,6 +92,9 @@ impl Command {
         if self.dry_run {
             return foretell(&experiment, device, output);
         }
+        if let Some(text) = several_sizes(&experiment) {
+            remark(&text, output);
+        }
         let mut sweep = Sweep::new(&experiment, &self.output, rules)?;
         let bar = Bar::new(output);
         let mut watch = |progress: Progress| {
@@ -236,6 +239,17 @@ impl Command {
             (runs, _) => Err(Error::Runs(runs)),
         }
     }
+}
+
+/// What is said where not all runs can be analysed together.
+fn several_sizes(experiment: &Experiment) -> Option<String> {
+    let [width, height] = experiment.size;
+    let mut runs = experiment.plan.runs.iter();
+    runs.any(|run| run.size != experiment.size).then(|| {
+        format!(
+            "lampray: the runs have several sizes; the report analyses those of {width} x {height}"
+        )
+    })
 }
 
 /// A file that a scene names is beside it.

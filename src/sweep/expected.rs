@@ -188,7 +188,15 @@ impl Neutral {
         };
         let mut assignments = base.assignments.clone();
         assignments.extend(point.assignments(0));
+        let scene = Scene::parse(&base.name, &base.text, &assignments)?;
         assignments.extend_from_slice(&self.0);
+        // What else a preset says, the filter, is not that of the preset that stands here now.
+        let kept = KNOBS
+            .iter()
+            .filter(|knob| knob.in_presets() && !samples_only(knob));
+        let kept =
+            kept.filter_map(|knob| Some(set(knob.path, scene.knobs.get(knob.path)?.clone())));
+        assignments.extend(kept);
         assignments.push(set("render.samples", samples.into()));
         Scene::parse(&base.name, &base.text, &assignments)
     }
