@@ -98,7 +98,11 @@ impl Command {
         let mut sweep = Sweep::new(&experiment, &self.output, rules)?;
         let bar = Bar::new(output);
         let mut watch = |progress: Progress| {
-            bar.show(progress.share, &describe(&progress));
+            bar.show(
+                progress.share,
+                describe(&progress),
+                progress.left.map(spelled),
+            );
             match signals.stopped() {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
@@ -352,17 +356,13 @@ fn command_line() -> String {
         .join(" ")
 }
 
-/// Which run of how many it is, what it is of, and the time left.
+/// Which run of how many it is, and what it is of.
 fn describe(progress: &Progress) -> String {
     let place = format!("{}/{}", progress.done + 1, progress.total);
-    let left = progress.left.map_or(String::new(), |left| {
-        format!(", about {} left", spelled(left))
-    });
     match progress.step {
-        Step::Reference(reference) => format!(
-            "[reference {place}] {} samples a pixel{left}",
-            reference.samples
-        ),
+        Step::Reference(reference) => {
+            format!("[reference {place}] {} samples a pixel", reference.samples)
+        }
         Step::Run(run) => {
             let values = run.point.values.iter();
             let values: Vec<String> = values
@@ -372,7 +372,7 @@ fn describe(progress: &Progress) -> String {
                 0 => String::new(),
                 repeat => format!(" seed +{repeat}"),
             };
-            format!("[{place}] {}{repeat}{left}", values.join(" "))
+            format!("[{place}] {}{repeat}", values.join(" "))
         }
     }
 }

@@ -77,10 +77,7 @@ impl Answer {
         references: Vec<Reference>,
         look: &mut Look,
     ) -> Result<()> {
-        let sized: Vec<Gathered> = groups
-            .into_iter()
-            .filter(|group| self.has_runs(group, experiment.size))
-            .collect();
+        let sized = self.take_sized(groups, experiment.size);
         let regions = experiment.regions.clone();
         let terms = Terms::default();
         let question = Question::new(experiment.size, references, regions, terms, sized.len())?;
@@ -101,23 +98,40 @@ impl Answer {
         Ok(())
     }
 
-    /// Whether a group has finished runs, of the size that is analysed; if not, says so.
-    fn has_runs(&mut self, group: &Gathered, [width, height]: [u32; 2]) -> bool {
-        let Some(first) = group.runs.first() else {
-            let name = &group.name;
-            self.left_out
-                .push(format!("Not analysed: {name}: no run is finished."));
-            return false;
-        };
-        let side = |key: &str| self.entries[*first].get(key).and_then(Value::as_u64);
-        let fits = [side("width"), side("height")] == [width, height].map(|side| Some(side.into()));
-        if !fits {
-            self.left_out.push(format!(
-                "Not analysed: {}: its pictures have not the size of the first group's, {width} x {height}.",
-                group.name
-            ));
+    /// The groups that have finished runs of the size that is analysed; says which have not.
+    fn take_sized(&mut self, groups: Vec<Gathered>, [width, height]: [u32; 2]) -> Vec<Gathered> {
+        let (mut sized, mut unfinished, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        let side = |run: usize, key: &str| self.entries[run].get(key).and_then(Value::as_u64);
+        for group in groups {
+            match group.runs.first() {
+                None => unfinished.push(group.name),
+                Some(&run)
+                    if side(run, "width") == Some(width.into())
+                        && side(run, "height") == Some(height.into()) =>
+                {
+                    sized.push(group);
+                }
+                Some(_) => others.push(group.name),
+            }
         }
-        fits
+        let size = format!("their pictures are not of the first run's size, {width} x {height}");
+        for (names, reason) in [(unfinished, "no run is finished"), (others, &size)] {
+            if !names.is_empty() {
+                self.left_out
+                    .push(format!("Not analysed, for {reason}: {}.", few(&names)));
+            }
+        }
+        sized
+    }
+}
+
+/// Some of the names, and how many more there are.
+fn few(names: &[String]) -> String {
+    const MOST: usize = 6;
+    let shown = names[..names.len().min(MOST)].join("; ");
+    match names.len().saturating_sub(MOST) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
     }
 }
 
@@ -150,7 +164,7 @@ impl References {
                 }
                 Err(_) => {
                     places.push(None);
-                    missing.push(planned.name.as_str());
+                    missing.push(planned.name.clone());
                 }
             }
         }
@@ -174,15 +188,13 @@ impl References {
 }
 
 /// What is said of references that have not been made.
-fn not_there(names: &[&str]) -> Option<String> {
-    let (first, others) = names.split_first()?;
-    let others = match others.len() {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    Some(format!(
-        "Without bias and error: {first}{others} is not there yet; the same command makes it."
-    ))
+fn not_there(names: &[String]) -> Option<String> {
+    let list = few(names);
+    (!names.is_empty()).then(|| {
+        format!(
+            "Without bias and error, for it is not there yet: {list}; the same command makes it."
+        )
+    })
 }
 
 pub(super) fn text<'e>(entry: &'e Entry, key: &str) -> &'e str {

@@ -48,6 +48,13 @@ fn bias_is_found_without_being_asked_for() {
     assert_eq!((&own["made"], &own["found"]), (&0.into(), &1.into()));
     assert_eq!(references(at).len(), 1);
     assert_eq!(report(at)["groups"], first["groups"]);
+    // One that was damaged is.
+    let file = at.join("out/reference").join(&references(at)[0]);
+    let bytes = fs::read(&file).expect("a reference");
+    fs::write(&file, &bytes[..bytes.len() - 500]).expect("a file");
+    assert_eq!(code(at, &PAPER), 0);
+    assert_eq!(fs::read(&file).expect("a reference").len(), bytes.len());
+    assert_eq!(report(at)["groups"], first["groups"]);
 }
 
 /// Each albedo has a picture of its own; so has each number of reflections.
