@@ -14,7 +14,7 @@
 //! any EXR, PNG ─RasterFile→ Pair ─┬→ metrics, limits, maps ─┬→ Comparison → text, JSON, exit code
 //!                                 └→ verdict ───────────────┘
 //!
-//! grid ─sweep→ runs.jsonl, pictures ─analysis→ ReportData ─report→ report.html
+//! grid ─sweep→ runs.jsonl, pictures, references ─Answer::read→ Analysis ─fill→ ReportData ─report→ report.html
 //! ```
 //!
 //! One direction: a room knows the rooms before it, never those after it.
@@ -30,7 +30,7 @@
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
-//! | [`sweep`] | a grid of renders: axes, plan, ledger, table |
+//! | [`sweep`] | a grid of renders with their references: axes, plan, ledger, table, and the way back from a folder |
 //! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`points`] | the samplers alone, as data or as a plot |
