@@ -2,6 +2,7 @@
 
 use super::experiment::{Experiment, ReferenceOf, reference_file};
 use super::ledger::{Entry, Ledger, Status};
+use super::plan::Planned;
 use crate::analysis::{Analysis, Question, Reference, Runs};
 use crate::compare::verdict::Terms;
 use crate::error::{Error, Result};
@@ -13,8 +14,8 @@ use std::path::Path;
 /// What a folder holds of an experiment.
 #[derive(Clone, Debug, Default)]
 pub struct Answer {
-    /// The ledger's lines of the experiment's runs, in the order of the grid: `seconds.render`, `paths` and
-    /// `rays` of a run are here.
+    /// The ledger's lines of the experiment's runs, in the order of its grid, which `run`, `repeat` and `swept`
+    /// follow, too: `seconds.render`, `paths` and `rays` of a run are here.
     pub entries: Vec<Entry>,
     /// None where no group could be analysed.
     pub analysis: Option<Analysis>,
@@ -35,29 +36,30 @@ impl Answer {
     /// [`Error::Input`] for a ledger that cannot be read. A picture that cannot be read or does not belong to
     /// the others leaves its group out, and `left_out` says so.
     pub fn read(folder: &Path, experiment: &Experiment, look: &mut Look) -> Result<Self> {
-        let plan = &experiment.plan;
-        let number = |entry: &Entry| entry.get("run").and_then(Value::as_u64);
-        let of_id: HashMap<&str, usize> = plan
+        let of_id: HashMap<&str, &Planned> = experiment
+            .plan
             .runs
             .iter()
-            .enumerate()
-            .map(|(index, run)| (run.id.as_str(), index))
+            .map(|run| (run.id.as_str(), run))
             .collect();
         let mut entries = Ledger::open(folder)?.entries()?;
-        entries.retain(|entry| of_id.contains_key(text(entry, "id")));
-        entries.sort_by_key(number);
+        entries.retain_mut(|entry| match of_id.get(text(entry, "id")) {
+            Some(run) => {
+                place(entry, run);
+                true
+            }
+            None => false,
+        });
+        entries.sort_by_key(|entry| entry.get("run").and_then(Value::as_u64));
         let mut answer = Self {
             entries,
             ..Self::default()
         };
         let references = References::read(folder, experiment, &mut answer)?;
-        let of_run = |entry: &Entry| of_id.get(text(entry, "id")).copied();
         let mut groups = gather(&answer.entries);
         for group in &mut groups {
             let first = group.runs.first().map(|run| &answer.entries[*run]);
-            group.reference = first
-                .and_then(of_run)
-                .and_then(|run| references.of_run[run]);
+            group.reference = first.and_then(|entry| references.of(text(entry, "id")));
         }
         answer.analyse(folder, experiment, groups, references.all, look)?;
         Ok(answer)
@@ -135,14 +137,34 @@ fn few(names: &[String]) -> String {
     }
 }
 
-/// The references that are there, and which of them each of the plan's runs has.
-struct References {
-    all: Vec<Reference>,
-    of_run: Vec<Option<usize>>,
+/// Puts an entry where this plan has its run: another grid, which shares the folder, may have made it.
+fn place(entry: &mut Entry, run: &Planned) {
+    let knobs = entry.get("knobs").and_then(Value::as_object);
+    let value = |path: &str| knobs.and_then(|knobs| knobs.get(path)).cloned();
+    let axes = run.point.values.iter();
+    let swept: Map<String, Value> = axes
+        .map(|(path, text)| {
+            let value = value(path).unwrap_or_else(|| text.as_str().into());
+            (path.clone(), value)
+        })
+        .collect();
+    entry.insert("swept".into(), Value::Object(swept));
+    entry.insert("run".into(), run.number.into());
+    entry.insert("repeat".into(), run.point.repeat.into());
 }
 
-impl References {
-    fn read(folder: &Path, experiment: &Experiment, answer: &mut Answer) -> Result<Self> {
+/// The references that are there, and which of them each of the plan's runs has.
+struct References<'e> {
+    all: Vec<Reference>,
+    of_run: HashMap<&'e str, usize>,
+}
+
+impl<'e> References<'e> {
+    fn of(&self, id: &str) -> Option<usize> {
+        self.of_run.get(id).copied()
+    }
+
+    fn read(folder: &Path, experiment: &'e Experiment, answer: &mut Answer) -> Result<Self> {
         let finished: HashSet<&str> = answer
             .entries
             .iter()
@@ -180,8 +202,11 @@ impl References {
             Some(ReferenceOf::Own(place)) => places[*place],
             None => None,
         };
+        let runs = experiment.plan.runs.iter().zip(&of_run);
         Ok(Self {
-            of_run: of_run.iter().map(place).collect(),
+            of_run: runs
+                .filter_map(|(run, of)| Some((run.id.as_str(), place(of)?)))
+                .collect(),
             all,
         })
     }

@@ -57,6 +57,23 @@ fn a_grid_is_made_once() {
     assert_eq!((entries(at).len(), ids(at).len()), (18, 18));
 }
 
+/// Runs that an earlier grid made take their place in a later one.
+#[test]
+fn another_grid_in_the_same_folder() {
+    let folder = folder();
+    let at = folder.path();
+    let samples = ["--set", "render.samples=4", "--seeds", "2"];
+    assert_eq!(code(at, &samples), 0);
+    let both = [&["--set", "light.sampler=gaussian,cone"], &samples[..]].concat();
+    assert_eq!(code(at, &both), 0);
+    assert_eq!(entries(at).len(), 4);
+    let report = report(at);
+    let groups = report["groups"].as_array().expect("groups");
+    let names: Vec<_> = groups.iter().map(|group| &group["name"]).collect();
+    assert_eq!(names, ["gaussian, 4", "cone, 4"]);
+    assert!(groups.iter().all(|group| group["runs"] == 2));
+}
+
 /// A run of a sweep is the render of the same knobs, byte for byte.
 #[test]
 fn a_run_is_the_render_of_its_knobs() {

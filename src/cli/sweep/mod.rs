@@ -20,7 +20,7 @@ use serde_json::json;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use words::{command_line, describe, not_made, several_sizes, spelled, title};
+use words::{command_line, describe, ended, not_made, several_sizes, spelled, title};
 
 /// Render a grid of knob values in one process
 ///
@@ -216,25 +216,8 @@ impl Command {
         references: ReferenceSummary,
         output: Output,
     ) -> Result<()> {
-        let Summary {
-            made,
-            skipped,
-            failed,
-            ..
-        } = summary;
         let stopped = summary.stopped || references.stopped;
-        let folder = self.output.display();
-        let state = if stopped { " (stopped early)" } else { "" };
-        let own = match (references.made, references.found) {
-            (0, 0) => String::new(),
-            (made, found) => format!("; references: {made} made, {found} were there"),
-        };
-        remark(
-            &format!(
-                "{folder}: {made} runs made{state}, {skipped} were there, {failed} failed{own}"
-            ),
-            output,
-        );
+        remark(&ended(&self.output, summary, &references), output);
         for (name, reason) in &references.failed {
             remark(
                 &format!("lampray: the {name} was not made: {reason}"),
@@ -246,12 +229,12 @@ impl Command {
                 "made": references.made, "found": references.found, "failed": references.failed.len(),
             });
             let told = json!({
-                "folder": self.output, "made": made, "skipped": skipped, "failed": failed,
-                "stopped": stopped, "references": own,
+                "folder": self.output, "made": summary.made, "skipped": summary.skipped,
+                "failed": summary.failed, "stopped": stopped, "references": own,
             });
             print(&format!("{told}\n"))?;
         }
-        match (failed, references.failed.len()) {
+        match (summary.failed, references.failed.len()) {
             (0, 0) => Ok(()),
             (0, references) => Err(Error::References(references)),
             (runs, _) => Err(Error::Runs(runs)),

@@ -1,6 +1,6 @@
 //! What is said of a sweep.
 
-use crate::sweep::{Experiment, Progress, ReferenceSummary, Step};
+use crate::sweep::{Experiment, Progress, ReferenceSummary, Step, Summary};
 use std::path::Path;
 use std::time::Duration;
 
@@ -75,4 +75,24 @@ pub(super) fn spelled(duration: Duration) -> String {
         ..5400.0 => format!("{:.0} min", seconds / 60.0),
         _ => format!("{:.1} h", seconds / 3600.0),
     }
+}
+
+/// One line on what was made.
+pub(super) fn ended(folder: &Path, runs: Summary, references: &ReferenceSummary) -> String {
+    let Summary {
+        made,
+        skipped,
+        failed,
+        stopped,
+    } = runs;
+    let state = match stopped || references.stopped {
+        true => " (stopped early)",
+        false => "",
+    };
+    let own = match (references.made, references.found) {
+        (0, 0) => String::new(),
+        (made, found) => format!("; references: {made} made, {found} were there"),
+    };
+    let folder = folder.display();
+    format!("{folder}: {made} runs made{state}, {skipped} were there, {failed} failed{own}")
 }
