@@ -14,8 +14,8 @@
 //! any EXR, PNG ─RasterFile→ Pair ─┬→ metrics, limits, maps ─┬→ Comparison → text, JSON, exit code
 //!                                 └→ verdict ───────────────┘
 //!
-//! grid ─sweep→ runs.jsonl, pictures ─analysis→ ReportData ─report→ report.html
-//! studies ─reproduce→ folders of sweeps ─figures→ index.html, claims.md, plots, data
+//! grid ─sweep→ runs.jsonl, pictures, references ─Answer::read→ Analysis ─┬fill→ ReportData ─report→ report.html
+//! studies ─reproduce→ folders of sweeps ──────────Answer::read→ Analysis ─┴figures→ index.html, claims.md, plots, data
 //! ```
 //!
 //! One direction: a room knows the rooms before it, never those after it.
@@ -31,7 +31,7 @@
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
-//! | [`sweep`] | a grid of renders: axes, plan, ledger, table |
+//! | [`sweep`] | a grid of renders with their references: axes, plan, ledger, table, and the way back from a folder |
 //! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
 //! | [`figures`] | the paper's figures from what sweeps wrote: numbers, sentences, plots, pages; never renders |
 //! | [`reproduce`] | renders what the figures are made of |

@@ -146,11 +146,6 @@ impl Analysis {
             None => "noise",
         };
         let group = &self.groups[best];
-        let alike = |other: &Group| other.reference == self.groups[self.baseline].reference;
-        let of = match self.groups.iter().all(alike) {
-            true => String::new(),
-            false => format!("Of the groups held against the reference of {baseline}: "),
-        };
         let but = match self.outcome(best, WHOLE) {
             Some(Outcome::Different) => ", bias included",
             _ => "",
@@ -174,7 +169,20 @@ impl Analysis {
                 ranged(ratio)
             )
         };
-        vec![of + &sentence]
+        vec![self.among() + &sentence]
+    }
+
+    /// Whom a comparison with the baseline is of, where that is not all groups.
+    fn among(&self) -> String {
+        let baseline = &self.groups[self.baseline];
+        let alike = |other: &Group| other.reference == baseline.reference;
+        match self.groups.iter().all(alike) {
+            true => String::new(),
+            false => format!(
+                "Of the groups held against the reference of {}: ",
+                baseline.name
+            ),
+        }
     }
 
     /// Where bias overtakes noise, the fewest samples first.

@@ -12,6 +12,7 @@ use crate::compare::part;
 use crate::compare::verdict::{Relation, Side, Sides, Verdict, judge};
 use crate::pack::Rect;
 use serde_json::{Map, Value};
+use std::sync::Arc;
 
 /// What runs that differ in nothing but their seed say.
 #[derive(Clone, Debug)]
@@ -28,7 +29,8 @@ pub struct Group {
     pub seconds: Quantity,
     /// In the order of the question's regions.
     pub regions: Vec<RegionFigures>,
-    pub maps: Maps,
+    /// Clones of a group share them.
+    pub maps: Arc<Maps>,
 }
 
 /// Pictures of a group, linear light.
@@ -80,7 +82,7 @@ impl Group {
         });
         Self {
             regions: regions.collect(),
-            maps: Maps::new(&runs, reference, planes.mean),
+            maps: Arc::new(Maps::new(&runs, reference, planes.mean)),
             reference: number,
             runs: runs.len(),
             samples: runs.samples(),

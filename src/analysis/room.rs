@@ -115,7 +115,7 @@ mod tests {
         assert_eq!((room.halvings, room.deviation), (0, 0));
         assert!(room.bias < 30, "{room:?}");
         let (room, _) = taken([256, 256], 60, 1);
-        assert_eq!((room.halvings, room.bias, room.deviation), (1, 60, 30));
+        assert_eq!((room.halvings, room.bias, room.deviation), (1, 60, 31));
     }
 
     #[test]
@@ -135,7 +135,10 @@ mod tests {
         let (room, _) = taken([512, 512], 200, 1);
         let notes = room.notes(200, 200).join("\n");
         assert!(notes.contains("mean of 8 x 8 pixels"), "{notes}");
-        assert!(notes.contains("maps of deviation"), "{notes}");
+        let (room, _) = taken([256, 256], 30, 1);
+        let notes = room.notes(30, 30).join("\n");
+        assert!(notes.contains("maps of bias are shown for the first 7 of 30"));
+        assert!(notes.contains("maps of deviation are shown for the first 0 of 30"));
         let (room, _) = taken([64, 64], 20, 1);
         assert_eq!(room.notes(20, 20), Vec::<String>::new());
     }

@@ -44,9 +44,11 @@ pub(crate) fn inverted(value: Interval) -> Interval {
     }
 }
 
-/// a, b and c.
+/// a, b and c; names that have commas themselves are kept apart by semicolons.
 pub(crate) fn list(names: &[&str]) -> String {
+    let commas = names.iter().any(|name| name.contains(','));
     match names {
+        [_, _, ..] if commas => names.join("; "),
         [] => String::new(),
         [one] => (*one).into(),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),

@@ -1,7 +1,8 @@
 use super::options::DeviceOptions;
 use super::progress::Bar;
 use super::signal::Watch;
-use super::sweep::{command_line, describe, remark};
+use super::sweep::remark;
+use super::sweep::words::{command_line, describe, spelled};
 use super::{Output, print};
 use crate::error::{Error, Result};
 use crate::figures::{self, About, Data, Effort, Figure, NUMBERS, files};
@@ -99,10 +100,8 @@ impl Command {
             Ok(chosen.device)
         };
         let outcome = reproduce(order, &mut open, &mut |study, progress| {
-            bar.show(
-                progress.share,
-                &format!("{} {}", study.name, describe(&progress)),
-            );
+            let words = format!("{} {}", study.name, describe(&progress));
+            bar.show(progress.share, words, progress.left.map(spelled));
             match signals.stopped() {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),

@@ -30,7 +30,7 @@ pub(crate) struct Bar {
 
 impl Bar {
     pub(crate) fn new(output: Output) -> Self {
-        let bar = bar(output, "{wide_bar} {percent}% {elapsed} {msg}");
+        let bar = bar(output, "{bar:24} {percent:>3}% {prefix} {wide_msg}");
         bar.set_length(STEPS);
         Self {
             plain: bar.is_hidden() && !output.quiet,
@@ -39,14 +39,19 @@ impl Bar {
         }
     }
 
-    /// Shows how much is done, 0 to 1, and what is in hand: a place in brackets, then words.
-    pub(crate) fn show(&self, share: f64, words: &str) {
-        self.bar.set_position((share * STEPS as f64) as u64);
-        self.bar.set_message(words.to_string());
-        let place = words.split_inclusive(']').next().unwrap_or(words);
-        if self.plain && *self.said.borrow() != place {
-            note(words);
-            self.said.replace(place.into());
+    /// Shows how much is done, 0 to 1, what is in hand, and the time left.
+    pub(crate) fn show(&self, share: f64, words: String, left: Option<String>) {
+        let left = left.map(|left| format!("about {left} left"));
+        if self.plain && *self.said.borrow() != words {
+            match left {
+                Some(left) => note(&format!("{words}, {left}")),
+                None => note(&words),
+            }
+            self.said.replace(words);
+        } else {
+            self.bar.set_position((share * STEPS as f64) as u64);
+            self.bar.set_prefix(left.unwrap_or_default());
+            self.bar.set_message(words);
         }
     }
 

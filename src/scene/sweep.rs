@@ -188,3 +188,19 @@ fn wrong(value: &Spanned<DeValue<'_>>, path: &str, wanted: &str, faults: &mut Fa
         (format!("`{path}` must be {wanted}, not {found}"), None)
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_keeps_its_place_and_never_vanishes() {
+        assert_eq!(scale([40, 60], 256, 256), [40, 60]);
+        assert_eq!(scale([40, 60], 256, 128), [20, 30]);
+        assert_eq!(scale([40, 60], 256, 1024), [160, 240]);
+        assert_eq!(scale([3, 5], 10, 15), [5, 8]);
+        assert_eq!(scale([40, 41], 256, 64), [10, 11]);
+        assert_eq!(scale([255, 256], 256, 16), [15, 16]);
+        assert_eq!(scale([0, 256], 256, 1), [0, 1]);
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::experiment::{Experiment, ReferenceOf, reference_file};
 use super::ledger::{Entry, Ledger, Status};
+use super::plan::Planned;
 use crate::analysis::{Analysis, Question, Reference, Runs};
 use crate::compare::verdict::Terms;
 use crate::error::{Error, Result};
@@ -13,8 +14,8 @@ use std::path::Path;
 /// What a folder holds of an experiment.
 #[derive(Clone, Debug, Default)]
 pub struct Answer {
-    /// The ledger's lines of the experiment's runs, in the order of the grid: `seconds.render`, `paths` and
-    /// `rays` of a run are here.
+    /// The ledger's lines of the experiment's runs, in the order of its grid, which `run`, `repeat` and `swept`
+    /// follow, too: `seconds.render`, `paths` and `rays` of a run are here.
     pub entries: Vec<Entry>,
     /// None where no group could be analysed.
     pub analysis: Option<Analysis>,
@@ -35,29 +36,30 @@ impl Answer {
     /// [`Error::Input`] for a ledger that cannot be read. A picture that cannot be read or does not belong to
     /// the others leaves its group out, and `left_out` says so.
     pub fn read(folder: &Path, experiment: &Experiment, look: &mut Look) -> Result<Self> {
-        let plan = &experiment.plan;
-        let number = |entry: &Entry| entry.get("run").and_then(Value::as_u64);
-        let of_id: HashMap<&str, usize> = plan
+        let of_id: HashMap<&str, &Planned> = experiment
+            .plan
             .runs
             .iter()
-            .enumerate()
-            .map(|(index, run)| (run.id.as_str(), index))
+            .map(|run| (run.id.as_str(), run))
             .collect();
         let mut entries = Ledger::open(folder)?.entries()?;
-        entries.retain(|entry| of_id.contains_key(text(entry, "id")));
-        entries.sort_by_key(number);
+        entries.retain_mut(|entry| match of_id.get(text(entry, "id")) {
+            Some(run) => {
+                place(entry, run);
+                true
+            }
+            None => false,
+        });
+        entries.sort_by_key(|entry| entry.get("run").and_then(Value::as_u64));
         let mut answer = Self {
             entries,
             ..Self::default()
         };
         let references = References::read(folder, experiment, &mut answer)?;
-        let of_run = |entry: &Entry| of_id.get(text(entry, "id")).copied();
         let mut groups = gather(&answer.entries);
         for group in &mut groups {
             let first = group.runs.first().map(|run| &answer.entries[*run]);
-            group.reference = first
-                .and_then(of_run)
-                .and_then(|run| references.of_run[run]);
+            group.reference = first.and_then(|entry| references.of(text(entry, "id")));
         }
         answer.analyse(folder, experiment, groups, references.all, look)?;
         Ok(answer)
@@ -77,10 +79,7 @@ impl Answer {
         references: Vec<Reference>,
         look: &mut Look,
     ) -> Result<()> {
-        let sized: Vec<Gathered> = groups
-            .into_iter()
-            .filter(|group| self.has_runs(group, experiment.size))
-            .collect();
+        let sized = self.take_sized(groups, experiment.size);
         let regions = experiment.regions.clone();
         let terms = Terms::default();
         let question = Question::new(experiment.size, references, regions, terms, sized.len())?;
@@ -101,34 +100,71 @@ impl Answer {
         Ok(())
     }
 
-    /// Whether a group has finished runs, of the size that is analysed; if not, says so.
-    fn has_runs(&mut self, group: &Gathered, [width, height]: [u32; 2]) -> bool {
-        let Some(first) = group.runs.first() else {
-            let name = &group.name;
-            self.left_out
-                .push(format!("Not analysed: {name}: no run is finished."));
-            return false;
-        };
-        let side = |key: &str| self.entries[*first].get(key).and_then(Value::as_u64);
-        let fits = [side("width"), side("height")] == [width, height].map(|side| Some(side.into()));
-        if !fits {
-            self.left_out.push(format!(
-                "Not analysed: {}: its pictures have not the size of the first group's, {width} x {height}.",
-                group.name
-            ));
+    /// The groups that have finished runs of the size that is analysed; says which have not.
+    fn take_sized(&mut self, groups: Vec<Gathered>, [width, height]: [u32; 2]) -> Vec<Gathered> {
+        let (mut sized, mut unfinished, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        let side = |run: usize, key: &str| self.entries[run].get(key).and_then(Value::as_u64);
+        for group in groups {
+            match group.runs.first() {
+                None => unfinished.push(group.name),
+                Some(&run)
+                    if side(run, "width") == Some(width.into())
+                        && side(run, "height") == Some(height.into()) =>
+                {
+                    sized.push(group);
+                }
+                Some(_) => others.push(group.name),
+            }
         }
-        fits
+        let size = format!("their pictures are not of the first run's size, {width} x {height}");
+        for (names, reason) in [(unfinished, "no run is finished"), (others, &size)] {
+            if !names.is_empty() {
+                self.left_out
+                    .push(format!("Not analysed, for {reason}: {}.", few(&names)));
+            }
+        }
+        sized
     }
 }
 
-/// The references that are there, and which of them each of the plan's runs has.
-struct References {
-    all: Vec<Reference>,
-    of_run: Vec<Option<usize>>,
+/// Some of the names, and how many more there are.
+fn few(names: &[String]) -> String {
+    const MOST: usize = 6;
+    let shown = names[..names.len().min(MOST)].join("; ");
+    match names.len().saturating_sub(MOST) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
 }
 
-impl References {
-    fn read(folder: &Path, experiment: &Experiment, answer: &mut Answer) -> Result<Self> {
+/// Puts an entry where this plan has its run: another grid, which shares the folder, may have made it.
+fn place(entry: &mut Entry, run: &Planned) {
+    let knobs = entry.get("knobs").and_then(Value::as_object);
+    let value = |path: &str| knobs.and_then(|knobs| knobs.get(path)).cloned();
+    let axes = run.point.values.iter();
+    let swept: Map<String, Value> = axes
+        .map(|(path, text)| {
+            let value = value(path).unwrap_or_else(|| text.as_str().into());
+            (path.clone(), value)
+        })
+        .collect();
+    entry.insert("swept".into(), Value::Object(swept));
+    entry.insert("run".into(), run.number.into());
+    entry.insert("repeat".into(), run.point.repeat.into());
+}
+
+/// The references that are there, and which of them each of the plan's runs has.
+struct References<'e> {
+    all: Vec<Reference>,
+    of_run: HashMap<&'e str, usize>,
+}
+
+impl<'e> References<'e> {
+    fn of(&self, id: &str) -> Option<usize> {
+        self.of_run.get(id).copied()
+    }
+
+    fn read(folder: &Path, experiment: &'e Experiment, answer: &mut Answer) -> Result<Self> {
         let finished: HashSet<&str> = answer
             .entries
             .iter()
@@ -150,7 +186,7 @@ impl References {
                 }
                 Err(_) => {
                     places.push(None);
-                    missing.push(planned.name.as_str());
+                    missing.push(planned.name.clone());
                 }
             }
         }
@@ -166,23 +202,24 @@ impl References {
             Some(ReferenceOf::Own(place)) => places[*place],
             None => None,
         };
+        let runs = experiment.plan.runs.iter().zip(&of_run);
         Ok(Self {
-            of_run: of_run.iter().map(place).collect(),
+            of_run: runs
+                .filter_map(|(run, of)| Some((run.id.as_str(), place(of)?)))
+                .collect(),
             all,
         })
     }
 }
 
 /// What is said of references that have not been made.
-fn not_there(names: &[&str]) -> Option<String> {
-    let (first, others) = names.split_first()?;
-    let others = match others.len() {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    Some(format!(
-        "Without bias and error: {first}{others} is not there yet; the same command makes it."
-    ))
+fn not_there(names: &[String]) -> Option<String> {
+    let list = few(names);
+    (!names.is_empty()).then(|| {
+        format!(
+            "Without bias and error, for it is not there yet: {list}; the same command makes it."
+        )
+    })
 }
 
 pub(super) fn text<'e>(entry: &'e Entry, key: &str) -> &'e str {

@@ -17,6 +17,9 @@ use std::str::FromStr;
 /// The most samples a pixel that a render takes, in whole runs of 16.
 const MOST_SAMPLES: u64 = 2_147_483_632;
 
+/// Bytes of a name; what would be longer is numbered.
+const LONGEST: usize = 80;
+
 /// What runs are held against.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum ReferenceRule {
@@ -122,6 +125,12 @@ impl Expected {
         Ok(all)
     }
 
+    /// The values that an axis has among its runs.
+    fn values<'p>(&self, plan: &'p Plan, axis: usize) -> BTreeSet<&'p str> {
+        let runs = self.runs.iter().map(|run| &plan.runs[*run].point);
+        runs.map(|point| point.values[axis].1.as_str()).collect()
+    }
+
     /// The reference that the finished ones of its runs are held against; none where no run is finished.
     pub fn reference(
         &self,
@@ -188,7 +197,15 @@ impl Neutral {
         };
         let mut assignments = base.assignments.clone();
         assignments.extend(point.assignments(0));
+        let scene = Scene::parse(&base.name, &base.text, &assignments)?;
         assignments.extend_from_slice(&self.0);
+        // What else a preset says, the filter, is not that of the preset that stands here now.
+        let kept = KNOBS
+            .iter()
+            .filter(|knob| knob.in_presets() && !samples_only(knob));
+        let kept =
+            kept.filter_map(|knob| Some(set(knob.path, scene.knobs.get(knob.path)?.clone())));
+        assignments.extend(kept);
         assignments.push(set("render.samples", samples.into()));
         Scene::parse(&base.name, &base.text, &assignments)
     }
@@ -215,44 +232,25 @@ fn samples_only(knob: &Knob) -> bool {
 
 /// Names each by the values of the axes that tell it from the others.
 fn name(all: &mut [Expected], plan: &Plan) {
-    let axes: Vec<String> = match plan.runs.first() {
-        Some(run) => run
-            .point
-            .values
-            .iter()
-            .map(|(path, _)| path.clone())
-            .collect(),
-        None => Vec::new(),
-    };
-    let values = |expected: &Expected, axis: usize| -> BTreeSet<String> {
-        let runs = expected
-            .runs
-            .iter()
-            .map(|run| &plan.runs[*run].point.values[axis].1);
-        runs.cloned().collect()
-    };
-    let telling: Vec<usize> = (0..axes.len())
-        .filter(|axis| {
-            let first = all.first().map(|expected| values(expected, *axis));
-            all.iter()
-                .any(|expected| Some(values(expected, *axis)) != first)
-        })
-        .collect();
-    let names: Vec<String> = all
+    let axes = plan.runs.first().map_or(0, |run| run.point.values.len());
+    let values: Vec<Vec<BTreeSet<&str>>> = all
         .iter()
-        .map(|expected| {
-            let parts = telling.iter().map(|axis| {
-                let values: Vec<_> = values(expected, *axis).into_iter().collect();
-                format!("{} {}", axes[*axis], values.join(" or "))
-            });
-            parts.collect::<Vec<_>>().join(", ")
-        })
+        .map(|expected| (0..axes).map(|axis| expected.values(plan, axis)).collect())
+        .collect();
+    let telling: Vec<usize> = (0..axes)
+        .filter(|axis| values.iter().any(|other| other[*axis] != values[0][*axis]))
         .collect();
     let mut seen = HashSet::new();
-    for (number, (expected, name)) in all.iter_mut().zip(names).enumerate() {
+    for (number, (expected, values)) in all.iter_mut().zip(&values).enumerate() {
+        let parts = telling.iter().map(|axis| {
+            let (path, _) = &plan.runs[expected.runs[0]].point.values[*axis];
+            let values: Vec<_> = values[*axis].iter().copied().collect();
+            format!("{path} {}", values.join(" or "))
+        });
+        let name = parts.collect::<Vec<_>>().join(", ");
         expected.name = match name.as_str() {
             "" if number == 0 => "reference".into(),
-            name if name.len() > 80 || !seen.insert(name.to_string()) => {
+            name if name.len() > LONGEST || !seen.insert(name.to_string()) => {
                 format!("reference {}", number + 1)
             }
             name => format!("reference for {name}"),

@@ -62,3 +62,39 @@ impl Pace {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::{Axis, Base, Grid, Plan};
+
+    #[test]
+    fn shares_go_up_to_one_and_time_goes_down() {
+        let text = "version = 1\ncamera = { position = [0, 0, 3], look_at = [0, 0, 0] }\n";
+        let base = Base {
+            name: "s.toml".into(),
+            text: text.into(),
+            assignments: Vec::new(),
+        };
+        let grid = Grid {
+            axes: vec![Axis::parse("render.samples=1,3").unwrap()],
+            ..Grid::default()
+        };
+        let device = crate::cpu::Cpu::new();
+        let plan = Plan::new(&base, &grid, crate::device::Device::info(&device)).unwrap();
+        let mut pace = Pace::new(4 * 256 * 256);
+        let at = |pace: &Pace, run: usize, paths| {
+            let step = (run, 2, Step::Run(&plan.runs[run]));
+            let progress = pace.progress(step, paths);
+            (progress.share, progress.left)
+        };
+        assert_eq!(at(&pace, 0, 0), (0.0, None));
+        pace.add(plan.runs[0].paths);
+        let (share, left) = at(&pace, 1, 256 * 256);
+        assert_eq!(share, 0.5);
+        std::thread::sleep(Duration::from_millis(20));
+        let (share, none) = at(&pace, 1, 3 * 256 * 256);
+        assert_eq!((share, none), (1.0, Some(Duration::ZERO)));
+        assert!(left.is_some());
+    }
+}

@@ -8,7 +8,7 @@ use super::plan::Planned;
 use super::progress::{Pace, Progress, Step};
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::{Picture, Target, read_record};
+use crate::film::{Picture, Target, read_exr, read_record};
 use crate::place::Place;
 use crate::scene::Scene;
 use serde_json::{Map, Value, json};
@@ -189,7 +189,8 @@ impl<'a> Sweep<'a> {
         let ledger = &self.ledger;
         let all = self.experiment.references(&|run| ledger.knows(&run.id))?;
         for (done, reference) in all.iter().enumerate() {
-            if is_there(&self.folder, &reference.id) {
+            // Read to its end: one that was damaged is made again.
+            if read_exr(reference_file(&self.folder, &reference.id, "exr")).is_ok() {
                 summary.found += 1;
                 continue;
             }
@@ -259,7 +260,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// Whether a reference has been made: a picture comes into the folder whole or not at all.
+/// Whether a reference has been made, as far as its head tells.
 fn is_there(folder: &Path, id: &str) -> bool {
     let record = read_record(reference_file(folder, id, "exr"));
     record.is_ok_and(|(record, _)| record.complete)

@@ -4,6 +4,7 @@ use super::worlds::{COLOUR, picture, region};
 use lampray::analysis::{Analysis, Group, Question, Reference, Region, Runs};
 use lampray::compare::verdict::Terms;
 use lampray::film::Picture;
+use lampray::report::data::ReportData;
 use serde_json::Map;
 
 /// Mean of the squares of the colours: what every squared figure is multiplied by.
@@ -34,7 +35,8 @@ fn pictures() -> [Picture; 2] {
 }
 
 fn question(reference: Option<Reference>, regions: Vec<Region>) -> Question {
-    Question::new([2, 1], reference, regions, Terms::default(), 1).expect("a question")
+    let references = reference.into_iter().collect();
+    Question::new([2, 1], references, regions, Terms::default(), 1).expect("a question")
 }
 
 fn group(question: &Question, pictures: &[Picture]) -> Group {
@@ -42,7 +44,8 @@ fn group(question: &Question, pictures: &[Picture]) -> Group {
     for (picture, seconds) in pictures.iter().zip([1.0, 3.0]) {
         runs.add(picture, seconds).expect("a run");
     }
-    question.answer(runs).expect("a group")
+    let number = (!question.references().is_empty()).then_some(0);
+    question.answer(runs, number).expect("a group")
 }
 
 #[test]
@@ -75,7 +78,8 @@ fn maps() {
     let question = question(Some(reference()), Vec::new());
     let maps = group(&question, &pictures()).maps;
     close(f64::from(maps.mean[1][0]), 2.4);
-    close(f64::from(maps.bias.expect("a reference")[1][0]), 0.4);
+    let bias = maps.bias.as_ref().expect("a reference");
+    close(f64::from(bias[1][0]), 0.4);
     close(f64::from(maps.deviation[0][2]), 0.4_f64.sqrt() * COLOUR[2]);
 }
 
@@ -116,6 +120,41 @@ fn noise_alone_without_a_reference() {
     assert_eq!(analysis.groups[1].regions[0].bias, None);
 }
 
+/// A group's bias is by its own reference, and it has no ratio to a group of another one.
+#[test]
+fn each_group_has_its_reference() {
+    let brighter = picture(2, 100, 98, vec![(2.0, 1.0), (3.0, 1.0)]);
+    let other = Reference::new("brighter", brighter).expect("it has noise");
+    let references = vec![reference(), other];
+    let question = Question::new([2, 1], references, Vec::new(), Terms::default(), 4);
+    let question = question.expect("a question");
+    let answered = |name: &str, number| {
+        let mut runs = Runs::new(name, Map::new());
+        for (picture, seconds) in pictures().iter().zip([1.0, 3.0]) {
+            runs.add(picture, seconds).expect("a run");
+        }
+        question.answer(runs, number)
+    };
+    let named = [("a", Some(0)), ("b", Some(1)), ("c", None), ("d", Some(0))];
+    let groups = named.map(|(name, number)| answered(name, number).expect("a group"));
+    let bias = |group: &Group| group.regions[0].bias.map(|bias| bias[0].value);
+    close(bias(&groups[0]).expect("a reference"), 0.3);
+    close(bias(&groups[1]).expect("a reference"), -0.7);
+    assert_eq!(bias(&groups[2]), None);
+    assert!(answered("e", Some(2)).is_err());
+    let analysis = Analysis::new(question.clone(), groups.to_vec(), None).expect("groups");
+    let ratios = analysis.against.iter().map(|against| against[0].equal_time);
+    let there: Vec<bool> = ratios.map(|ratio| ratio.is_some()).collect();
+    assert_eq!(there, [true, false, false, true]);
+    let mut data = ReportData::default();
+    analysis.fill(&mut data);
+    let numbers: Vec<_> = data.groups.iter().map(|group| group.reference).collect();
+    assert_eq!(numbers, [Some(0), Some(1), None, Some(0)]);
+    assert_eq!(data.references.len(), 2);
+    let notes = data.notes.join("\n");
+    assert!(notes.contains("2 of 4 groups have no ratios"), "{notes}");
+}
+
 #[test]
 fn what_cannot_be_analysed() {
     let mut runs = Runs::new("group", Map::new());
@@ -135,10 +174,13 @@ fn what_cannot_be_analysed() {
     let question = question(Some(own), Vec::new());
     let mut runs = Runs::new("group", Map::new());
     runs.add(&pictures()[1], 1.0).expect("a run");
-    let error = question.answer(runs).expect_err("shared").to_string();
+    let error = question
+        .answer(runs, Some(0))
+        .expect_err("shared")
+        .to_string();
     assert!(error.contains("a seed of its own"), "{error}");
     let outside = vec![region("far", [0, 0, 3, 1])];
-    let error = Question::new([2, 1], None, outside, Terms::default(), 1);
+    let error = Question::new([2, 1], Vec::new(), outside, Terms::default(), 1);
     assert!(
         error
             .expect_err("outside")

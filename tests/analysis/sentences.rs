@@ -5,9 +5,9 @@ use super::worlds::{Estimator, World, picture, region};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use half::f16;
-use lampray::analysis::{Analysis, Kind, Question, Runs, image, picture_image};
+use lampray::analysis::{Analysis, Kind, Question, Reference, Runs, image, picture_image};
 use lampray::compare::verdict::Terms;
-use lampray::report::data::ReportData;
+use lampray::report::data::{GroupData, ReportData};
 use serde_json::Map;
 
 const LARGE: World = World {
@@ -76,7 +76,7 @@ fn which_is_better_and_by_how_much() {
 #[test]
 fn runs_that_are_one_run() {
     let question =
-        Question::new([8, 8], None, Vec::new(), Terms::default(), 1).expect("a question");
+        Question::new([8, 8], Vec::new(), Vec::new(), Terms::default(), 1).expect("a question");
     let mut runs = Runs::new("copies", Map::new());
     for seed in 0..4 {
         let grey = (0..64)
@@ -84,7 +84,7 @@ fn runs_that_are_one_run() {
             .collect();
         runs.add(&picture(8, 16, seed, grey), 1.0).expect("a run");
     }
-    let group = question.answer(runs).expect("a group");
+    let group = question.answer(runs, None).expect("a group");
     let analysis = Analysis::new(question, vec![group], None).expect("a group");
     let text = findings(&analysis);
     assert!(text.starts_with("copies: the runs vary 0 (95 %"), "{text}");
@@ -98,12 +98,11 @@ fn the_report_is_filled() {
         .push(picture_image("other", &picture(1, 4, 0, vec![(1.0, 1.0)])));
     analysis.fill(&mut data);
     assert_eq!(data.images.len(), 1 + 1 + 2 * 3);
-    assert_eq!(
-        data.reference.and_then(|reference| reference.image),
-        Some(1)
-    );
+    assert_eq!(data.references[0].image, Some(1));
     assert_eq!(data.regions[0].rect, [0, 0, 32, 32]);
+    assert_eq!(data.notes, Vec::<String>::new());
     let second = &data.groups[1];
+    assert_eq!(second.reference, Some(0));
     assert_eq!((second.runs, second.samples), (4, 64));
     let bias = &data.images[second.bias_image.expect("a reference")];
     assert_eq!(
@@ -119,6 +118,38 @@ fn the_report_is_filled() {
     );
     assert!(figures.mse.is_some() && figures.relmse.is_some() && figures.crossing.is_some());
     assert_eq!(data.findings, analysis.findings());
+}
+
+/// Two hundred groups of large pictures: the means of all are there, smaller, and the page says so.
+#[test]
+fn a_page_is_never_too_large() {
+    let grey: Vec<_> = (0..512 * 512)
+        .map(|pixel| (1.0 + 0.1 * f64::from(pixel % 7), 1.0))
+        .collect();
+    let reference = Reference::new("reference", picture(512, 64, 99, grey.clone()));
+    let references = vec![reference.expect("it has noise")];
+    let question = Question::new([512, 512], references, Vec::new(), Terms::default(), 200);
+    let question = question.expect("a question");
+    let mut runs = Runs::new("a group", Map::new());
+    runs.add(&picture(512, 16, 1, grey), 1.0).expect("a run");
+    let group = question.answer(runs, Some(0)).expect("a group");
+    let analysis = Analysis::new(question, vec![group; 200], None).expect("groups");
+    let mut data = ReportData::default();
+    analysis.fill(&mut data);
+    let shown = |of: fn(&GroupData) -> Option<usize>| {
+        let shown = data.groups.iter().map(of);
+        shown.take_while(Option::is_some).count()
+    };
+    assert_eq!(shown(|group| group.mean_image), 200);
+    let mean = &data.images[data.groups[199].mean_image.expect("a mean")];
+    assert_eq!((mean.width, mean.height), (64, 64));
+    assert!(data.notes.join("\n").contains("mean of 8 x 8 pixels"));
+    assert_eq!(shown(|group| group.bias_image), 200);
+    let deviations = shown(|group| group.deviation_image);
+    assert!((1..=200).contains(&deviations), "{deviations}");
+    let page = lampray::report::page(&data).expect("a page");
+    assert!(page.len() < 30_000_000, "{} bytes", page.len());
+    assert!(page.len() > 10_000_000, "{} bytes", page.len());
 }
 
 /// Little-endian halves, red first; what is too large becomes the largest that there is.
@@ -145,11 +176,11 @@ fn images_are_halves() {
 #[test]
 fn an_unknown_baseline() {
     let question =
-        Question::new([1, 1], None, Vec::new(), Terms::default(), 1).expect("a question");
+        Question::new([1, 1], Vec::new(), Vec::new(), Terms::default(), 1).expect("a question");
     let error = Analysis::new(question, Vec::new(), Some("cone"));
     assert!(error.is_err());
     let part = region("corner", [0, 0, 1, 1]);
     let question =
-        Question::new([1, 1], None, vec![part], Terms::default(), 1).expect("a question");
+        Question::new([1, 1], Vec::new(), vec![part], Terms::default(), 1).expect("a question");
     assert_eq!(question.regions().len(), 2);
 }

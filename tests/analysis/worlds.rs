@@ -126,7 +126,7 @@ impl World {
         change_reference(&mut reference);
         let reference = Reference::new("reference", reference).expect("it has noise");
         let size = [self.size; 2];
-        let question = Question::new(size, Some(reference), Vec::new(), Terms::default(), 2);
+        let question = Question::new(size, vec![reference], Vec::new(), Terms::default(), 2);
         let question = question.expect("of one size");
         let groups = ["first", "second"].into_iter().zip(self.estimators);
         let groups: Vec<Group> = groups
@@ -139,7 +139,7 @@ impl World {
                     let seconds = estimator.seconds * (1.0 + jitter);
                     runs.add(&picture, seconds).expect("a run");
                 }
-                question.answer(runs).expect("a group")
+                question.answer(runs, Some(0)).expect("a group")
             })
             .collect();
         Analysis::new(question, groups, None).expect("two groups")

@@ -72,7 +72,7 @@ async function regions(page) {
 }
 
 /** Whether the left edge of the penumbra's rectangle is white in the first picture, half down. */
-function rectangleSeen(page) {
+export function rectangleSeen(page) {
   return page.run(() => {
     const canvas = document.querySelector("#stage canvas");
     const [x, y] = [Math.round((24 / 64) * canvas.width), Math.round((56 / 64) * canvas.height)];

@@ -7,7 +7,7 @@ import { pathToFileURL } from "node:url";
 import { page as assemble } from "./assemble.mjs";
 import { launch, Page } from "./browser.mjs";
 import { equal, holds, verdict } from "./check.mjs";
-import { headChecks } from "./head_checks.mjs";
+import { headChecks, rectangleSeen } from "./head_checks.mjs";
 import { paintedMaps, plotChecks } from "./plot_checks.mjs";
 import { shoot } from "./shots.mjs";
 import { synthetic } from "./synthetic.mjs";
@@ -59,6 +59,34 @@ async function unreferenced(browser, { url }) {
   equal("noise is what is left to show", await page.run(() => [...document.querySelectorAll("#error-kind option")].map((option) => option.value)), ["noise"]);
   equal("columns of what is unknown are gone", await page.many('#group-table [data-key="bias"], #group-table [data-key="rmse"]'), 0);
   await blameless("unreferenced", page);
+}
+
+/** Groups that are held against different references. */
+async function several(browser, { url }) {
+  const page = await Page.open(browser, url);
+  const facts = await page.text("#facts");
+  holds("both references are told", facts.includes("cornell-reference.exr") && facts.includes("reference for albedo 0.9, 320 samples"), facts);
+  holds("and who has none", facts.includes("1 group: only noise"), facts);
+  holds("the notes say what is missing and why", (await page.text("#notes")).includes("have no ratios"), await page.text("#notes"));
+  equal("the slots offer every reference", await page.run(() => document.querySelectorAll(".slot:first-child optgroup[label=References] option").length), 2);
+  const names = () => page.run(() => [...document.querySelectorAll("#stage figcaption")].map((each) => each.textContent));
+  equal("the first pictures belong together", await names(), ["A reference", "B cone, 4 samples, mean"]);
+  const view = (row) => page.click(`#group-table tbody tr:nth-child(${row}) .view-buttons button:nth-child(1)`);
+  await view(12);
+  equal("a mean comes with its own reference", await names(), ["A reference for albedo 0.9", "B gaussian, 16 samples, mean"]);
+  await view(20);
+  equal("what has none leaves the slot as it is", (await names())[0], "A reference for albedo 0.9");
+  await page.click("#group-table summary");
+  await page.click("#group-table .menu label:nth-child(4) input");
+  holds("a column names them", (await page.text("#group-table tbody tr:nth-child(12)")).includes("reference for albedo 0.9"), await page.text("#group-table thead"));
+  await page.choose("#bars-kind", "equal_time");
+  equal("no ratio between different pictures", await page.many("#bars .bar-row"), 10);
+  await page.choose("#map-kind", "deviation_image");
+  equal("the maps that there are", await page.many("#map-grid figure"), 4);
+  equal("and that there are no more", await page.text("#map-tally"), "4 of 20 groups have this map here.");
+  await page.choose("#region", "1");
+  equal("regions lie right over smaller pictures", await rectangleSeen(page), true);
+  await blameless("several", page);
 }
 
 async function hostile(browser, { url }) {
@@ -115,6 +143,8 @@ try {
   await fullReport(browser, full);
   await phone(browser, full);
   await unreferenced(browser, written("unreferenced"));
+  const many = written("several");
+  await several(browser, many);
   await hostile(browser, written("hostile"));
   await sparse(browser, written("sparse"));
   await paper(browser, full);
@@ -122,6 +152,7 @@ try {
   if (shots) {
     mkdirSync(shots, { recursive: true });
     await shoot(browser, full.url, resolve(shots));
+    await shoot(browser, many.url, resolve(shots), "several-");
     console.log(`screenshots are in ${shots}`);
   }
 } catch (fault) {

@@ -18,12 +18,12 @@ async function wake(page) {
 }
 
 /** Writes PNGs of the whole page and a PDF as it is printed. */
-export async function shoot(browser, url, folder) {
+export async function shoot(browser, url, folder, prefix = "") {
   for (const { name, ...look } of VIEWS) {
     const page = await Page.open(browser, url, look);
     await wake(page);
-    writeFileSync(join(folder, `${name}.png`), Buffer.from(await page.screenshot(), "base64"));
-    if (name === "desktop-dark") await print(page, join(folder, "print.pdf"));
+    writeFileSync(join(folder, `${prefix}${name}.png`), Buffer.from(await page.screenshot(), "base64"));
+    if (name === "desktop-dark") await print(page, join(folder, `${prefix}print.pdf`));
     await page.close();
   }
 }

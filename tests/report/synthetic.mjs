@@ -1,5 +1,5 @@
 // Made-up sweeps, the same at every call: what the page is tested with.
-// node synthetic.mjs [full|unreferenced|hostile|sparse|empty] > data.json
+// node synthetic.mjs [full|unreferenced|several|hostile|sparse|empty] > data.json
 import { normal, penumbra, picture, room, stream } from "./picture.mjs";
 
 const HOSTILE = ["</script><b>bold</b>", "<!--<script>alert(1)", "\"quoted\" & 'single', comma", "=1+1\u2028\\u003c"];
@@ -103,13 +103,13 @@ function full({ referenced = true, path = PATH, samplers = SAMPLERS } = {}) {
         return result;
       });
       groups.push({
-        name, values: { [path]: sampler.name, "render.samples": count }, runs: SEEDS, samples: count,
+        name, values: { [path]: sampler.name, "render.samples": count }, reference: referenced ? 0 : null, runs: SEEDS, samples: count,
         seconds: around(seconds, 0.03), regions, ...groupPictures(images, name, sampler, count, random, referenced),
       });
       for (let seed = 0; seed < SEEDS; seed++) runs.push(run(images, runs.length, groups.length - 1, sampler, count, seed, path));
     }
   }
-  return { ...words(path, samplers), runs, groups, regions: REGIONS.map(({ name, rect }) => ({ name, rect })), reference: referenced ? reference() : null, images };
+  return { ...words(path, samplers), runs, groups, regions: REGIONS.map(({ name, rect }) => ({ name, rect })), references: referenced ? [reference()] : [], images, notes: [] };
 }
 
 function words(path, samplers) {
@@ -145,7 +145,8 @@ function hostile() {
   data.findings = HOSTILE;
   data.regions[1].name = HOSTILE[0];
   data.runs[37].error = HOSTILE[1];
-  data.reference.name = HOSTILE[1];
+  data.references[0].name = HOSTILE[1];
+  data.notes = HOSTILE;
   data.runs[0].seed = "@18446744073709551615@";
   return data;
 }
@@ -166,13 +167,31 @@ function sparse() {
   return data;
 }
 
+/** Two expected pictures, one group without a reference, maps that there was no room for, and pictures of
+ * half the size. */
+function several() {
+  const data = full();
+  const brighter = (u, v) => room(u, v).map((value) => 1.5 * value);
+  const other = data.images.push(picture("reference for albedo 0.9", "radiance", SIZE, brighter)) - 1;
+  data.references.push({ ...reference(), name: "reference for albedo 0.9", samples: 320, image: other });
+  for (const group of data.groups.slice(10)) {
+    group.reference = 1;
+    for (const found of group.regions) Object.assign(found, { equal_time: null, equal_error: null });
+  }
+  data.groups[19].reference = null;
+  for (const group of data.groups.slice(4)) group.deviation_image = null;
+  for (const region of data.regions) region.rect = region.rect.map((end) => 2 * end);
+  data.notes = ["10 of 20 groups have no ratios: they are not held against the reference of cone, 4 samples.", "Maps of deviation are shown for the first 4 of 20 groups."];
+  return data;
+}
+
 function empty() {
-  return { title: "", question: "", command: "", version: "", axes: [], runs: [], groups: [], regions: [], reference: null, images: [], findings: [] };
+  return { title: "", question: "", command: "", version: "", axes: [], runs: [], groups: [], regions: [], references: [], images: [], findings: [], notes: [] };
 }
 
 /** JSON of a made-up sweep, as the Rust side writes it. */
 export function synthetic(kind) {
-  const makers = { full, unreferenced: () => full({ referenced: false }), hostile, sparse, empty };
+  const makers = { full, unreferenced: () => full({ referenced: false }), several, hostile, sparse, empty };
   return JSON.stringify(makers[kind]()).replace(/"@(\d+)@"/g, "$1");
 }
 

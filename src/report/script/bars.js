@@ -5,8 +5,8 @@ const BAR_KINDS = [
   { key: "variance", title: "Variance of one sample", note: "Mean over the region’s pixels; independent of the number of samples." },
   { key: "mse", title: "MSE", note: "Mean squared error of a run’s pixels against the reference." },
   { key: "efficiency", title: "Efficiency, 1 / (MSE × seconds)", note: "Higher is better." },
-  { key: "equal_time", title: "Error at equal time, ratio", note: "Error at equal time over the first group’s. Below 1 is better.", base: 1 },
-  { key: "equal_error", title: "Time to equal error, ratio", note: "Time to equal error over the first group’s. Below 1 is better.", base: 1 },
+  { key: "equal_time", title: "Error at equal time, ratio", note: "Error at equal time over the first group’s, of the same reference. Below 1 is better.", base: 1 },
+  { key: "equal_error", title: "Time to equal error, ratio", note: "Time to equal error over the first group’s, of the same reference. Below 1 is better.", base: 1 },
   { key: "mean", title: "Mean radiance", note: "Mean of the region’s pixels." },
 ];
 

@@ -52,6 +52,11 @@ function result(group, region) {
   return group.regions[region] ?? {};
 }
 
+/** What a group is held against, if anything. */
+function referenceOf(group) {
+  return data.references[group.reference] ?? null;
+}
+
 /** Whether some group has this number in some region. */
 function anyGroupHas(key) {
   return data.groups.some((group) => group.regions.some((each) => each[key] !== null && each[key] !== undefined));

@@ -38,6 +38,7 @@ function groupColumns() {
   return [
     textColumn("group", "Group", (group) => group.name),
     ...axisColumns(data.groups, false),
+    { ...textColumn("reference", "Reference", (group) => referenceOf(group)?.name ?? null, { shown: false, help: "What the group is held against" }), absent: () => data.references.length < 2 },
     numberColumn("runs", "Runs", (group) => group.runs, count, { shown: false }),
     numberColumn("samples", "Samples", (group) => group.samples, count, { help: "Samples a pixel" }),
     intervalColumn("seconds", "Seconds", (group) => group.seconds, { help: "Mean tracing time of a run" }),
@@ -48,8 +49,8 @@ function groupColumns() {
     intervalColumn("relmse", "relMSE", of("relmse"), { ...lacks("relmse"), shown: false }),
     numberColumn("crossing", "N*", of("crossing"), roundCount, { ...lacks("crossing"), help: "Samples a pixel at which bias² and variance / N are equal" }),
     intervalColumn("efficiency", "Efficiency", of("efficiency"), { ...lacks("efficiency"), shown: false, help: "1 / (MSE × seconds)" }),
-    intervalColumn("equal_time", "Equal time", of("equal_time"), { ...lacks("equal_time"), help: "Error at equal time over the first group's; below 1 is better" }),
-    intervalColumn("equal_error", "Equal error", of("equal_error"), { ...lacks("equal_error"), shown: false, help: "Time to equal error over the first group's" }),
+    intervalColumn("equal_time", "Equal time", of("equal_time"), { ...lacks("equal_time"), help: "Error at equal time over the first group's, of the same reference; below 1 is better" }),
+    intervalColumn("equal_error", "Equal error", of("equal_error"), { ...lacks("equal_error"), shown: false, help: "Time to equal error over the first group's, of the same reference" }),
     { ...textColumn("verdict", "Verdict", of("verdict"), lacks("verdict")), cell: (group) => verdictCell(here(group).verdict) },
     { key: "pictures", look: "pictures", title: "Pictures", cell: (group) => pictureButtons([["mean", group.mean_image], ["bias", group.bias_image], ["dev.", group.deviation_image]]) },
   ];

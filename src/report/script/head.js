@@ -59,16 +59,33 @@ function showKept() {
   byId("keep-all").hidden = all;
 }
 
-/** The reference, how the runs ended, where they ran. */
+/** More references than this are counted; the table of groups names them all. */
+const MOST_REFERENCES = 4;
+
+/** The references with what is known of them. */
+function referenceFacts() {
+  const { references } = data;
+  if (references.length === 0) return [["Reference", "None: bias and error are unknown; noise and time are shown."]];
+  const facts = references.slice(0, MOST_REFERENCES).flatMap((reference) => [
+    ["Reference", `${reference.name}, ${count(reference.samples)} samples a pixel`],
+    ["Its mean radiance", referenceMean(reference)],
+  ]);
+  const more = references.length - MOST_REFERENCES;
+  if (more > 0) facts.push(["References", `${count(more)} more, each for another expected picture; a column of the table of groups names them.`]);
+  const without = data.groups.filter((group) => referenceOf(group) === null).length;
+  if (without > 0) facts.push(["Without reference", `${amount(without, "group")}: only noise and time are known.`]);
+  return facts;
+}
+
+/** What the page itself leaves out, and why. */
+function fillNotes() {
+  byId("notes").replaceChildren(...data.notes.map((note) => element("li", {}, typeset(note))));
+  byId("notes").hidden = data.notes.length === 0;
+}
+
+/** The references, how the runs ended, where they ran. */
 function fillFacts() {
-  const facts = [];
-  const { reference } = data;
-  if (reference) {
-    facts.push(["Reference", `${reference.name}, ${count(reference.samples)} samples a pixel`]);
-    facts.push(["Its mean radiance", referenceMean(reference)]);
-  } else {
-    facts.push(["Reference", "None: bias and error are unknown; noise and time are shown."]);
-  }
+  const facts = referenceFacts();
   const states = new Map();
   for (const run of data.runs) states.set(run.status, (states.get(run.status) ?? 0) + 1);
   const ends = [...states].map(([status, runs]) => `${count(runs)} ${statusText(status)}`);

@@ -31,7 +31,7 @@ function paintMap(canvas, index, range) {
   const context = canvas.getContext("2d");
   context.imageSmoothingEnabled = false;
   context.drawImage(paintedImage(index, 0, range), 0, 0, canvas.width, canvas.height);
-  drawRegion(context, 0, 0, enlargement(data.images[index]));
+  drawRegion(context, 0, 0, canvas.width);
 }
 
 /** The maps of a kind; before they are near they take their place without paint, so nothing moves later. */
@@ -43,6 +43,8 @@ function drawMaps(kind, near) {
   const figures = groups.map((group) => mapFigure(group, kind));
   if (near) figures.forEach((figure, at) => paintMap(figure.querySelector("canvas"), indices[at], range));
   byId("map-grid").replaceChildren(...figures);
+  const all = keptGroups().length;
+  byId("map-tally").textContent = groups.length < all ? `${count(groups.length)} of ${amount(all, "group")} have this map here.` : "";
   byId("map-legend").replaceChildren(...(scale ? [colourLegend(scale, range, kind.legend)] : []));
 }
 

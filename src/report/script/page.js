@@ -23,6 +23,7 @@ fillFindings();
 fillRegions();
 fillAxes();
 fillFacts();
+fillNotes();
 fillConvergence();
 fillBars();
 fillGroups();

@@ -59,7 +59,7 @@ function drawPane(canvas, slots) {
     context.drawImage(picture, left, top, first.width * scale, first.height * scale);
     context.restore();
   }
-  drawRegion(context, left, top, scale);
+  drawRegion(context, left, top, first.width * scale);
   if (view.probe && scale >= 4) drawProbe(context, left, top, scale, first);
 }
 

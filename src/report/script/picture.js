@@ -60,10 +60,12 @@ function differenceRange(first, second) {
   return ranges.get(key);
 }
 
-/** Draws the chosen region's rectangle; the whole picture needs none. `scale` is pixels a pixel. */
-function drawRegion(context, left, top, scale) {
+/** Draws the chosen region's rectangle over a picture of this width on the screen; the whole picture needs
+ * none. Regions are in pixels of the render, of which the page may show fewer. */
+function drawRegion(context, left, top, width) {
   if (chosen.region === 0 || !data.regions[chosen.region]) return;
   const [x0, y0, x1, y1] = data.regions[chosen.region].rect;
+  const scale = width / data.regions[0].rect[2];
   const rectangle = [left + x0 * scale + 1.5, top + y0 * scale + 1.5, (x1 - x0) * scale - 3, (y1 - y0) * scale - 3];
   context.lineWidth = 4;
   context.strokeStyle = "rgb(0 0 0 / 0.75)";

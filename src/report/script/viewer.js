@@ -6,9 +6,9 @@ let drawnSoon = false;
 
 /** Pictures under headings, for the choices. */
 function pictureHeadings() {
-  const headings = { Reference: new Set(), "Means of groups": new Set(), Bias: new Set(), Deviation: new Set(), Runs: new Set(), Others: new Set() };
+  const headings = { References: new Set(), "Means of groups": new Set(), Bias: new Set(), Deviation: new Set(), Runs: new Set(), Others: new Set() };
   const put = (heading, index) => { if (index !== null && index !== undefined) headings[heading].add(index); };
-  put("Reference", data.reference?.image);
+  for (const reference of data.references) put("References", reference.image);
   for (const group of data.groups) {
     put("Means of groups", group.mean_image);
     put("Bias", group.bias_image);
@@ -171,19 +171,30 @@ function fit() {
   Object.assign(view, { zoom: 1, x: 0.5, y: 0.5 });
 }
 
-/** Puts a picture into the last slot and goes to the viewer. */
+/** The reference of the group or run that a picture of light belongs to. */
+function ownReference(index) {
+  const run = data.runs.find((each) => each.image === index);
+  const group = run ? data.groups[run.group] : data.groups.find((each) => each.mean_image === index);
+  return (group && referenceOf(group)?.image) ?? null;
+}
+
+/** Puts a picture into the last slot and goes to the viewer. Where the first one shows a reference, it shows
+ * the picture's own: nothing else is worth a difference. */
 function viewPicture(index) {
   const at = shown.slots.length - 1;
   if (shown.slots.length < 2) shown.slots.push(index);
   else shown.slots[at] = index;
+  const own = ownReference(index);
+  if (own !== null && data.references.some((reference) => reference.image === shown.slots[0])) shown.slots[0] = own;
   arrange();
   byId("pictures").scrollIntoView();
   byId("stage").focus({ preventScroll: true });
 }
 
-/** The first pictures: the reference and the first group's mean, or what there is. */
+/** The first pictures: the first group's reference and its mean, or what there is. */
 function firstSlots() {
-  const wanted = [data.reference?.image, ...data.groups.map((group) => group.mean_image), ...data.runs.map((run) => run.image)];
+  const [first] = data.groups;
+  const wanted = [first && referenceOf(first)?.image, ...data.groups.map((group) => group.mean_image), ...data.runs.map((run) => run.image)];
   return [...new Set(wanted.filter((index) => index !== null && index !== undefined))].slice(0, 2);
 }
 

@@ -1,3 +1,6 @@
+mod foretell;
+pub(super) mod words;
+
 use super::options::{DeviceOptions, ShortKnobs};
 use super::progress::Bar;
 use super::signal::Watch;
@@ -5,18 +8,19 @@ use super::{Output, note, print};
 use crate::device::{Device, DeviceInfo};
 use crate::error::{Error, Result};
 use crate::place::Place;
-use crate::render::{self, Task};
 use crate::report::page;
 use crate::scene::Scene;
 use crate::sweep::{
-    About, Axis, Base, Experiment, Grid, Progress, ReferenceRule, ReferenceSummary, Rules, Step,
-    Summary, Sweep, report_data,
+    About, Axis, Base, Experiment, Grid, Progress, ReferenceRule, ReferenceSummary, Rules, Summary,
+    Sweep, report_data,
 };
 use clap::Args;
+use foretell::foretell;
 use serde_json::json;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use words::{command_line, describe, ended, not_made, several_sizes, spelled, title};
 
 /// Render a grid of knob values in one process
 ///
@@ -24,8 +28,10 @@ use std::time::{Duration, Instant};
 /// (4..1024*2); several --set make a grid, --zip takes them in step. The folder gets runs.jsonl (one line
 /// a run, only ever added to), images/ID.exr and .png, table.csv (one row a run, every knob) and
 /// report.html (one file, works offline): bias, noise and cost with intervals, and the pictures. A run
-/// that is finished there is not made again; a failed one is. Without --set the scene's own [sweep]
-/// table says what to render: set = ["PATH=VALUES", ...], zip, seeds.
+/// that is finished there is not made again; a failed one is. After the runs the sweep renders what
+/// they are held against into reference/: the same scene, sampled as by the preset reference, once for
+/// each expected picture. Without --set the scene's own [sweep] table says what to render:
+/// set = ["PATH=VALUES", ...], zip, seeds, reference, regions.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lampray sweep scenes/cornell.toml --set light.sampler=cone,gaussian --set render.samples=4..64*2 --seeds 8 -o samplers
@@ -56,17 +62,17 @@ pub(crate) struct Command {
     /// Stop at the first run that fails
     #[arg(long)]
     fail_fast: bool,
-    /// Try a run that failed so many times more
+    /// Try a run or a reference that failed so many times more
     #[arg(long, value_name = "N", default_value_t = 0)]
     retry: u32,
-    /// Give a run up after so many seconds
+    /// Give a run up after so many seconds; references take their time
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<f64>,
     /// What the runs are held against for bias and error: auto (rendered after them, with as many
     /// samples as they have together), none, samples a pixel, or an EXR of another seed [default: auto]
     #[arg(long, value_name = "auto|none|SAMPLES|FILE.exr")]
     reference: Option<ReferenceRule>,
-    /// Make only the I-th of N parts of the grid
+    /// Make only the I-th of N parts of the grid, with references of its runs
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
     #[command(flatten)]
@@ -92,10 +98,34 @@ impl Command {
         if self.dry_run {
             return foretell(&experiment, device, output);
         }
+        if let Some(text) = several_sizes(&experiment) {
+            remark(&text, output);
+        }
         let mut sweep = Sweep::new(&experiment, &self.output, rules)?;
+        let (summary, references) = self.make(&mut sweep, device, &signals, output)?;
+        sweep.write_table()?;
+        let about = About {
+            title: title(&self.scene),
+            command: command_line(),
+            findings: not_made(&references),
+        };
+        let data = report_data(&self.output, &experiment, about)?;
+        self.write("report.html", &page(&data)?)?;
+        self.conclude(summary, references, output)
+    }
+
+    /// Makes the runs and then, unless they ended early, the references.
+    fn make(
+        &self,
+        sweep: &mut Sweep,
+        device: Box<dyn Device>,
+        signals: &Watch,
+        output: Output,
+    ) -> Result<(Summary, ReferenceSummary)> {
         let bar = Bar::new(output);
         let mut watch = |progress: Progress| {
-            bar.show(progress.share, &describe(&progress));
+            let left = progress.left.map(spelled);
+            bar.show(progress.share, describe(&progress), left);
             match signals.stopped() {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
@@ -108,8 +138,7 @@ impl Command {
                 .map_or_else(|| Ok(self.device.open()?.device), Ok)
         };
         let summary = sweep.go(&mut open, &mut watch)?;
-        let early = summary.stopped || (summary.failed > 0 && self.fail_fast);
-        let references = match early {
+        let references = match summary.stopped || (summary.failed > 0 && self.fail_fast) {
             true => ReferenceSummary {
                 stopped: true,
                 ..ReferenceSummary::default()
@@ -117,15 +146,7 @@ impl Command {
             false => sweep.references(&mut open, &mut watch)?,
         };
         bar.clear();
-        sweep.write_table()?;
-        let about = About {
-            title: title(&self.scene),
-            command: command_line(),
-            findings: not_made(&references),
-        };
-        let data = report_data(&self.output, &experiment, about)?;
-        self.write("report.html", &page(&data)?)?;
-        self.conclude(summary, references, output)
+        Ok((summary, references))
     }
 
     /// The command line's grid; what it does not say, the scene's `[sweep]` does.
@@ -195,25 +216,8 @@ impl Command {
         references: ReferenceSummary,
         output: Output,
     ) -> Result<()> {
-        let Summary {
-            made,
-            skipped,
-            failed,
-            ..
-        } = summary;
         let stopped = summary.stopped || references.stopped;
-        let folder = self.output.display();
-        let state = if stopped { " (stopped early)" } else { "" };
-        let own = match (references.made, references.found) {
-            (0, 0) => String::new(),
-            (made, found) => format!("; references: {made} made, {found} were there"),
-        };
-        remark(
-            &format!(
-                "{folder}: {made} runs made{state}, {skipped} were there, {failed} failed{own}"
-            ),
-            output,
-        );
+        remark(&ended(&self.output, summary, &references), output);
         for (name, reason) in &references.failed {
             remark(
                 &format!("lampray: the {name} was not made: {reason}"),
@@ -225,12 +229,12 @@ impl Command {
                 "made": references.made, "found": references.found, "failed": references.failed.len(),
             });
             let told = json!({
-                "folder": self.output, "made": made, "skipped": skipped, "failed": failed,
-                "stopped": stopped, "references": own,
+                "folder": self.output, "made": summary.made, "skipped": summary.skipped,
+                "failed": summary.failed, "stopped": stopped, "references": own,
             });
             print(&format!("{told}\n"))?;
         }
-        match (failed, references.failed.len()) {
+        match (summary.failed, references.failed.len()) {
             (0, 0) => Ok(()),
             (0, references) => Err(Error::References(references)),
             (runs, _) => Err(Error::Runs(runs)),
@@ -252,125 +256,6 @@ fn shard(text: &str) -> Result<[usize; 2]> {
         .split_once('/')
         .and_then(|(part, parts)| Some([part.trim().parse().ok()?, parts.trim().parse().ok()?]));
     parts.ok_or_else(|| Error::Usage(format!("--shard {text}: give I/N, for example 1/4")))
-}
-
-fn title(scene: &Path) -> String {
-    let stem = scene.file_stem().unwrap_or_default();
-    stem.to_string_lossy().into_owned()
-}
-
-/// Why references are missing.
-fn not_made(references: &ReferenceSummary) -> Vec<String> {
-    let failed = references.failed.iter();
-    let mut sentences: Vec<String> = failed
-        .map(|(name, reason)| format!("The {name} was not made: {reason}."))
-        .collect();
-    if references.stopped {
-        sentences.push("The sweep was stopped early; the same command goes on with it.".into());
-    }
-    sentences
-}
-
-/// `--dry-run`.
-fn foretell(experiment: &Experiment, mut device: Box<dyn Device>, output: Output) -> Result<()> {
-    let runs = &experiment.plan.runs;
-    let references = experiment.references(&|_| true)?;
-    let paths: u64 = runs.iter().map(|run| run.paths).sum();
-    let more: u64 = references.iter().map(|reference| reference.paths).sum();
-    let mut seconds = 0.0;
-    if let Some(run) = runs.first() {
-        let scene = experiment.base.scene(&run.point)?;
-        seconds += paths as f64 * time_a_path(&scene, device.as_mut())?;
-    }
-    if let Some(reference) = references.first() {
-        seconds += more as f64 * time_a_path(reference.scene(), device.as_mut())?;
-    }
-    if output.json {
-        let told = json!({
-            "runs": runs.len(), "paths": paths, "references": references.len(),
-            "reference_paths": more, "seconds": seconds,
-        });
-        return print(&format!("{told}\n"));
-    }
-    let about = spelled(Duration::from_secs_f64(seconds));
-    let own = match references.len() {
-        0 => String::new(),
-        1 => format!(", 1 reference of {more} paths"),
-        many => format!(", {many} references of {more} paths"),
-    };
-    print(&format!(
-        "{} runs, {paths} paths{own}, about {about} on {}\n",
-        runs.len(),
-        device.info().name
-    ))
-}
-
-/// Seconds that a path takes, by a small part of a render: the first time it is compiled, too.
-fn time_a_path(scene: &Scene, device: &mut dyn Device) -> Result<f64> {
-    const LONGEST: Duration = Duration::from_secs(2);
-    let mut task = Task::new(scene);
-    task.samples.end = task.samples.end.min(4);
-    let mut pilot = || {
-        let started = Instant::now();
-        let rendering =
-            render::render(device, &task, &mut |_| match started.elapsed() > LONGEST {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            })?;
-        let paths: u64 = rendering.film.counts.iter().sum();
-        Ok(rendering.tracing.as_secs_f64() / paths.max(1) as f64)
-    };
-    pilot()?;
-    pilot()
-}
-
-/// As it was typed, for a shell.
-pub(super) fn command_line() -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
-    let quoted = |word: String| match word.chars().all(plain) && !word.is_empty() {
-        true => word,
-        false => format!("'{}'", word.replace('\'', "'\\''")),
-    };
-    let words = std::env::args().skip(1).map(quoted);
-    std::iter::once("lampray".to_string())
-        .chain(words)
-        .collect::<Vec<_>>()
-        .join(" ")
-}
-
-/// Which run of how many it is, what it is of, and the time left.
-pub(super) fn describe(progress: &Progress) -> String {
-    let place = format!("{}/{}", progress.done + 1, progress.total);
-    let left = progress.left.map_or(String::new(), |left| {
-        format!(", about {} left", spelled(left))
-    });
-    match progress.step {
-        Step::Reference(reference) => format!(
-            "[reference {place}] {} samples a pixel{left}",
-            reference.samples
-        ),
-        Step::Run(run) => {
-            let values = run.point.values.iter();
-            let values: Vec<String> = values
-                .map(|(path, value)| format!("{path}={value}"))
-                .collect();
-            let repeat = match run.point.repeat {
-                0 => String::new(),
-                repeat => format!(" seed +{repeat}"),
-            };
-            format!("[{place}] {}{repeat}{left}", values.join(" "))
-        }
-    }
-}
-
-/// Seconds, minutes or hours.
-fn spelled(duration: Duration) -> String {
-    let seconds = duration.as_secs_f64();
-    match seconds {
-        ..90.0 => format!("{seconds:.0} s"),
-        ..5400.0 => format!("{:.0} min", seconds / 60.0),
-        _ => format!("{:.1} h", seconds / 3600.0),
-    }
 }
 
 pub(super) fn remark(text: &str, output: Output) {
