@@ -223,7 +223,7 @@ fn draw_group(
         value.and_then(|bar| Some((bar, axis.clamped(bar.value)?)))
     };
     for (index, (bar, &[left, right])) in group.bars.iter().zip(stands).enumerate() {
-        let class = format!("bar f{}", colour(colour_of(plot, index)));
+        let class = format!("bar b{}", colour(colour_of(plot, index)));
         let Some((_, end)) = end(bar) else {
             let at = [(left + right) / 2.0, base.min(frame.bottom) - 5.0];
             canvas.text(&Text::new("muted", at, Anchor::Middle, "–"));
