@@ -183,3 +183,28 @@ fn markdown_is_no_markup() {
     let outside: String = page.split("````").step_by(2).collect();
     assert!(!outside.contains("<img src=x") && !outside.contains("</script>"));
 }
+
+/// A rule of the page that meets a class inside a plot would change the plot.
+#[test]
+fn rules_of_the_page_do_not_reach_into_plots() {
+    let page = html(&figures(), &about()).unwrap();
+    let (style, body) = page.split_once("</style>").unwrap();
+    let rules: String = style
+        .lines()
+        .filter(|line| !line.contains(".lampray-plot"))
+        .collect();
+    let of_plots = body
+        .split("<svg")
+        .skip(1)
+        .filter_map(|rest| rest.split("</svg>").next());
+    for class in of_plots
+        .flat_map(|plot| plot.split(" class=\"").skip(2))
+        .filter_map(|rest| rest.split('"').next())
+    {
+        for class in class.split(' ') {
+            for end in [" ", ",", "{", ":", ".", ">"] {
+                assert!(!rules.contains(&format!(".{class}{end}")), "{class}");
+            }
+        }
+    }
+}

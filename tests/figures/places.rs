@@ -166,7 +166,7 @@ fn bars_begin_at_their_base() {
         [top, top + value(node, "height")]
             .map(|place| (read(&up, place, false) * 100.0).round() / 100.0)
     };
-    let bars: Vec<[f64; 2]> = of_class(&document, "bar").iter().map(ends).collect();
+    let bars: Vec<[f64; 2]> = of_class(&document, "amount").iter().map(ends).collect();
     assert_eq!(bars, [[1.5, 1.0], [1.0, 0.5]]);
     let expected = of_class(&document, "expected");
     let tick = expected.last().unwrap();

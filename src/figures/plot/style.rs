@@ -43,7 +43,7 @@ const SHAPES: &str = "\
 .lampray-plot .mark-name{font-style:italic}
 .lampray-plot line,.lampray-plot path{fill:none}
 .lampray-plot .rule{stroke-width:1}
-.lampray-plot .axis{stroke-width:1}
+.lampray-plot .spine{stroke-width:1}
 .lampray-plot .mark{stroke-width:1;stroke-dasharray:2 3}
 .lampray-plot .joined{stroke-width:1.5;opacity:.5;stroke-linejoin:round}
 .lampray-plot .curve{stroke-width:2;stroke-linejoin:round}
@@ -99,7 +99,7 @@ fn rules(of: impl Fn(Pair) -> String) -> String {
     rule(".halo", "stroke", PAPER);
     rule(".dot", "stroke", PAPER);
     rule(".rule", "stroke", RULE);
-    rule(".axis", "stroke", STRONG);
+    rule(".spine", "stroke", STRONG);
     rule(".minor", "stroke", STRONG);
     rule(".mark", "stroke", MUTED);
     for side in ["far", "near"] {
