@@ -105,7 +105,7 @@ async function checkTheme(page) {
 async function view(browser, look) {
   const page = await Page.open(browser, url, look);
   await checkPage(page, look);
-  if (shots) writeFileSync(join(shots, `${look.name}.png`), Buffer.from(await page.screenshot(), "base64"));
+  if (shots) await photograph(page, look.name);
   if (look.name === "desktop-light") {
     await checkLinks(page);
     await checkTheme(page);
@@ -115,6 +115,18 @@ async function view(browser, look) {
   equal(`${look.name}: faults in the console`, page.faults, []);
   equal(`${look.name}: requests`, page.requests.filter((each) => !each.startsWith("data:")), []);
   await page.close();
+}
+
+/** The page in pieces: a browser does not draw one so long at once. */
+async function photograph(page, name) {
+  const PIECE = 3000;
+  const { cssContentSize } = await page.send("Page.getLayoutMetrics");
+  const { width, height } = cssContentSize;
+  for (let y = 0; y < height; y += PIECE) {
+    const clip = { x: 0, y, width, height: Math.min(PIECE, height - y), scale: 1 };
+    const { data } = await page.send("Page.captureScreenshot", { clip, captureBeyondViewport: true });
+    writeFileSync(join(shots, `${name}-${y / PIECE + 1}.png`), Buffer.from(data, "base64"));
+  }
 }
 
 async function print(page) {

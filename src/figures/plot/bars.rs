@@ -202,7 +202,7 @@ fn fill(canvas: &mut Canvas, plot: &Bars, layout: &Layout) -> f64 {
         draw_group(canvas, plot, group, &stands(plot, index, frame), layout);
     }
     let base = base(plot, axis);
-    canvas.line("axis", [frame.left, base], [frame.right, base]);
+    canvas.line("spine", [frame.left, base], [frame.right, base]);
     frame::draw_levels(canvas, &levels, frame);
     frame::name_levels(canvas, &levels, along);
     name_groups(canvas, plot, frame)
@@ -223,7 +223,7 @@ fn draw_group(
         value.and_then(|bar| Some((bar, axis.clamped(bar.value)?)))
     };
     for (index, (bar, &[left, right])) in group.bars.iter().zip(stands).enumerate() {
-        let class = format!("bar f{}", colour(colour_of(plot, index)));
+        let class = format!("amount b{}", colour(colour_of(plot, index)));
         let Some((_, end)) = end(bar) else {
             let at = [(left + right) / 2.0, base.min(frame.bottom) - 5.0];
             canvas.text(&Text::new("muted", at, Anchor::Middle, "–"));

@@ -44,7 +44,7 @@ pub(super) fn upright(canvas: &mut Canvas, axis: &Axis, ticks: &[Tick], frame: &
             canvas.line("minor", [frame.left - 4.0, y], [frame.left, y]);
             continue;
         };
-        let class = if tick.value == 0.0 { "axis" } else { "rule" };
+        let class = if tick.value == 0.0 { "spine" } else { "rule" };
         canvas.line(class, [frame.left, y], [frame.right, y]);
         let at = [frame.left - GAP, y + 4.0];
         canvas.text(&Text {
@@ -63,13 +63,13 @@ pub(super) fn lying(
     width: f64,
 ) -> f64 {
     let bottom = frame.bottom;
-    canvas.line("axis", [frame.left, bottom], [frame.right, bottom]);
+    canvas.line("spine", [frame.left, bottom], [frame.right, bottom]);
     for tick in ticks_abreast(axis) {
         let Some(x) = axis.at(tick.value) else {
             continue;
         };
         let length = if tick.label.is_some() { 5.0 } else { 3.0 };
-        canvas.line("axis", [x, bottom], [x, bottom + length]);
+        canvas.line("spine", [x, bottom], [x, bottom + length]);
         if let Some(label) = &tick.label {
             let at = [x, bottom + 18.0];
             canvas.text(&Text {

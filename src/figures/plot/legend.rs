@@ -48,33 +48,40 @@ pub(super) fn head(canvas: &mut Canvas, title: &str, entries: &[Entry], width: f
     legend(canvas, entries, width, y) + 6.0
 }
 
-/// Entries in as many columns as the width holds; returns the lower end.
+/// Entries down columns, as many as the width holds; returns the lower end.
 fn legend(canvas: &mut Canvas, entries: &[Entry], width: f64, top: f64) -> f64 {
     let most = width - KEY - GAP;
     let names: Vec<Vec<String>> = entries
         .iter()
         .map(|entry| wrap(entry.name, TEXT, false, most))
         .collect();
-    let columns = columns(&names, width);
-    let (mut y, mut lower) = (top, top);
+    let (rows, columns) = columns(&names, width);
+    let height = |lines: &Vec<String>| LINE * lines.len() as f64 + 3.0;
+    // A row is as high as the highest of its entries.
+    let heights: Vec<f64> = (0..rows)
+        .map(|row| {
+            names
+                .iter()
+                .skip(row)
+                .step_by(rows)
+                .map(height)
+                .fold(0.0, f64::max)
+        })
+        .collect();
     for (index, (entry, lines)) in entries.iter().zip(&names).enumerate() {
-        let column = index % columns.len();
-        if column == 0 {
-            y = lower;
-        }
-        let x = columns[..column].iter().sum::<f64>();
+        let x = columns[..index / rows].iter().sum::<f64>();
+        let y = top + heights[..index % rows].iter().sum::<f64>();
         draw_key(canvas, entry.key, [x, y + LINE / 2.0]);
-        for (index, line) in lines.iter().enumerate() {
-            let at = [x + KEY + GAP, y + LINE * index as f64 + 11.5];
-            canvas.text(&Text::new("ink", at, Anchor::Start, line));
+        for (line, words) in lines.iter().enumerate() {
+            let at = [x + KEY + GAP, y + LINE * line as f64 + 11.5];
+            canvas.text(&Text::new("ink", at, Anchor::Start, words));
         }
-        lower = lower.max(y + LINE * lines.len() as f64 + 3.0);
     }
-    lower
+    top + heights.iter().sum::<f64>()
 }
 
-/// Widths of the columns: the most that fit beside each other.
-fn columns(names: &[Vec<String>], width: f64) -> Vec<f64> {
+/// The fewest rows whose columns fit beside each other, and the columns' widths.
+fn columns(names: &[Vec<String>], width: f64) -> (usize, Vec<f64>) {
     let needed: Vec<f64> = names
         .iter()
         .map(|lines| {
@@ -82,18 +89,15 @@ fn columns(names: &[Vec<String>], width: f64) -> Vec<f64> {
             KEY + GAP + widths.fold(0.0, f64::max) + APART
         })
         .collect();
-    let of = |many: usize| -> Vec<f64> {
-        let column = |first| needed.iter().skip(first).step_by(many).copied();
-        (0..many)
-            .map(|first| column(first).fold(0.0, f64::max))
+    let of = |rows: usize| -> Vec<f64> {
+        let columns = needed.chunks(rows);
+        columns
+            .map(|column| column.iter().copied().fold(0.0, f64::max))
             .collect()
     };
-    let fits = |columns: &Vec<f64>| columns.iter().sum::<f64>() - APART <= width;
-    (1..=names.len())
-        .rev()
-        .map(of)
-        .find(fits)
-        .unwrap_or_else(|| of(1))
+    let fits = |rows: &usize| of(*rows).iter().sum::<f64>() - APART <= width;
+    let rows = (1..=names.len()).find(fits).unwrap_or(names.len().max(1));
+    (rows, of(rows))
 }
 
 fn draw_key(canvas: &mut Canvas, key: Key, [x, y]: [f64; 2]) {
@@ -114,7 +118,7 @@ fn draw_key(canvas: &mut Canvas, key: Key, [x, y]: [f64; 2]) {
         }
         Key::Square(index) => {
             let middle = x + (KEY - 13.0) / 2.0;
-            canvas.rect(&format!("f{}", colour(index)), swatch(middle, y, 13.0, 6.0));
+            canvas.rect(&format!("b{}", colour(index)), swatch(middle, y, 13.0, 6.0));
         }
         Key::Tick => canvas.line("expected", [x + 2.0, y], [x + KEY - 2.0, y]),
         Key::Level => canvas.line("mark", left, right),

@@ -43,7 +43,7 @@ const SHAPES: &str = "\
 .lampray-plot .mark-name{font-style:italic}
 .lampray-plot line,.lampray-plot path{fill:none}
 .lampray-plot .rule{stroke-width:1}
-.lampray-plot .axis{stroke-width:1}
+.lampray-plot .spine{stroke-width:1}
 .lampray-plot .mark{stroke-width:1;stroke-dasharray:2 3}
 .lampray-plot .joined{stroke-width:1.5;opacity:.5;stroke-linejoin:round}
 .lampray-plot .curve{stroke-width:2;stroke-linejoin:round}
@@ -53,7 +53,6 @@ const SHAPES: &str = "\
 .lampray-plot .dot{stroke-width:1.2}
 .lampray-plot .leader{stroke-width:1;opacity:.6}
 .lampray-plot .expected{stroke-width:1.4}
-.lampray-plot .bar{opacity:.74}
 .lampray-plot .minor{stroke-width:1;opacity:.55}
 .lampray-plot .light{opacity:.07}
 .lampray-plot .outline{fill:none;stroke-width:1}
@@ -100,7 +99,7 @@ fn rules(of: impl Fn(Pair) -> String) -> String {
     rule(".halo", "stroke", PAPER);
     rule(".dot", "stroke", PAPER);
     rule(".rule", "stroke", RULE);
-    rule(".axis", "stroke", STRONG);
+    rule(".spine", "stroke", STRONG);
     rule(".minor", "stroke", STRONG);
     rule(".mark", "stroke", MUTED);
     for side in ["far", "near"] {
@@ -120,6 +119,7 @@ fn rules(of: impl Fn(Pair) -> String) -> String {
         rule(&format!(".f{index}"), "fill", pair);
         rule(&format!(".d{index}"), "stroke", DEEP[index]);
         rule(&format!(".t{index}"), "fill", DEEP[index]);
+        rule(&format!(".b{index}"), "fill", PALE[index]);
     }
     for (name, pair) in HUES {
         rule(&format!(".{name}"), "stroke", pair);
@@ -137,6 +137,18 @@ const DEEP: [Pair; 8] = [
     Pair("#125275", "#d7effe"),
     Pair("#24272c", "#e3e6ea"),
     Pair("#42200f", "#ecd0be"),
+];
+
+/// Areas are larger than lines, and need less colour.
+const PALE: [Pair; 8] = [
+    Pair("#5497c1", "#3f84b3"),
+    Pair("#dc8b58", "#bb6d39"),
+    Pair("#54a78e", "#31a07e"),
+    Pair("#c684ae", "#b17a9b"),
+    Pair("#b29b54", "#b09a45"),
+    Pair("#73b5da", "#78a6c3"),
+    Pair("#85888e", "#8d939b"),
+    Pair("#a97f6b", "#9f7459"),
 ];
 
 /// The palette's entry for a series: it begins again where it ends.

@@ -22,7 +22,7 @@ impl Label {
     pub fn width(&self) -> f64 {
         let power = self
             .power
-            .map_or_else(String::new, |power| power.to_string());
+            .map_or_else(String::new, |power| format!("−{}", power.abs()));
         text_width(&self.words, TEXT, false) + text_width(&power, 0.75 * TEXT, false)
     }
 }
@@ -113,7 +113,8 @@ fn logarithmic(axis: &Axis, most: usize) -> Vec<Tick> {
             .count()
     };
     if decades >= 3 || (decades >= 2 && fine(&[1, 2, 5]) > most) {
-        return by_decades(first, last, decades, most);
+        let inside = (first..=last).filter(|&power| inside(ten(power)));
+        return by_decades(first, last, &inside.collect::<Vec<_>>(), most);
     }
     let all = [[1, 2, 5].as_slice(), &[1, 3], &[1, 2, 3, 4, 5, 6, 7, 8, 9]];
     match all
@@ -125,10 +126,10 @@ fn logarithmic(axis: &Axis, most: usize) -> Vec<Tick> {
     }
 }
 
-fn by_decades(first: i32, last: i32, decades: usize, most: usize) -> Vec<Tick> {
-    let every = decades.div_ceil(most.max(1)).max(1) as i32;
+fn by_decades(first: i32, last: i32, decades: &[i32], most: usize) -> Vec<Tick> {
+    let every = decades.len().div_ceil(most.max(1)).max(1) as i32;
     let minor = if every == 1 { 1..=9 } else { 1..=1 };
-    let plain = first >= -3 && last <= 4;
+    let plain = decades.iter().all(|power| (-3..=4).contains(power));
     (first..=last)
         .flat_map(|power| minor.clone().map(move |factor| (power, factor)))
         .map(|(power, factor)| Tick {
