@@ -10,10 +10,11 @@ use crate::place::Place;
 use crate::points::{self, Kind, Request};
 use crate::report::page;
 use crate::scene::Assignment;
-use crate::sweep::{About, Open, Progress, Rules, Sweep, Watch, report_data};
+use crate::sweep::{About, Experiment, Open, Progress, Rules, Sweep, Watch, report_data};
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 /// What is wanted, and where.
 #[derive(Clone, Copy, Debug)]
@@ -42,48 +43,88 @@ pub type Hear<'a> = dyn FnMut(&Study, Progress) -> ControlFlow<()> + 'a;
 /// # Errors
 /// Those of the outputs and of opening a device; runs that fail are counted.
 pub fn reproduce(order: Order, open: &mut Open, hear: &mut Hear) -> Result<Outcome> {
-    let mut device = Some(open()?);
-    let info = device.as_deref().map(|device| device.info().clone());
-    let info = info.ok_or_else(|| Error::Internal("no device".into()))?;
+    let mut first = open()?;
+    let info = first.info().clone();
     let data = order.folder.join("data");
     fs::create_dir_all(&data).map_err(|source| Error::Create { path: data, source })?;
-    let text =
-        serde_json::to_string_pretty(&info).map_err(|error| Error::Internal(error.to_string()))?;
+    let text = serde_json::to_string_pretty(&info);
+    let text = text.map_err(|error| Error::Internal(error.to_string()))?;
     write(&device_file(order.folder), &(text + "\n"))?;
     if order.figures.contains(&6) {
-        draw_points(order, device.as_deref_mut())?;
+        draw_points(order.folder, first.as_mut())?;
     }
+    let wanted = |study: &Study| order.figures.contains(&study.figure);
+    let plan = |study: Study| Ok((study.experiment(&info)?, study));
+    let mine = studies(order.effort).into_iter().filter(wanted).map(plan);
+    let mine: Vec<(Experiment, Study)> = mine.collect::<Result<_>>()?;
+    let folder = |study: &Study| study_folder(order.folder, study);
+    let sweep = |(experiment, study)| Sweep::new(experiment, &folder(study), Rules::default());
+    let sweeps = mine
+        .iter()
+        .map(|(experiment, study)| sweep((experiment, study)));
+    let sweeps: Vec<Sweep> = sweeps.collect::<Result<_>>()?;
+    let mut pace = Pace::new(&sweeps);
+    let mut device = Some(first);
     let mut outcome = Outcome::default();
-    let mine = studies(order.effort)
-        .into_iter()
-        .filter(|study| order.figures.contains(&study.figure));
-    for study in mine {
-        let mut watch = |progress: Progress| hear(&study, progress);
+    for ((experiment, study), mut sweep) in mine.iter().zip(sweeps) {
+        let paths = sweep.paths();
+        let mut watch = |progress: Progress| hear(study, pace.over_all(progress, paths));
         let mut again = || device.take().map_or_else(&mut *open, Ok);
-        let experiment = study.experiment(&info)?;
-        let folder = study_folder(order.folder, &study);
-        let mut sweep = Sweep::new(&experiment, &folder, Rules::default())?;
-        let (one, left) = run(&study, &mut sweep, &mut again, &mut watch)?;
+        let (one, references) = run(study, &mut sweep, &mut again, &mut watch)?;
         device = sweep.into_device().or(device.take());
+        pace.done += paths;
         outcome.made += one.made;
         outcome.found += one.found;
         outcome.failed += one.failed;
         outcome.stopped = one.stopped;
-        // Nothing new: the report is that of the call before.
-        if one.made + left > 0 || !folder.join("report.html").exists() {
-            let about = About {
-                title: study.name.into(),
-                command: study.command(),
-                ..About::default()
-            };
-            let data = report_data(&folder, &experiment, about)?;
-            write(&folder.join("report.html"), &page(&data)?)?;
-        }
+        report(&folder(study), experiment, study, one.made + references > 0)?;
         if outcome.stopped {
             break;
         }
     }
     Ok(outcome)
+}
+
+/// Paths and time of all studies together.
+struct Pace {
+    started: Instant,
+    done: u64,
+    all: u64,
+}
+
+impl Pace {
+    fn new(sweeps: &[Sweep]) -> Self {
+        Self {
+            started: Instant::now(),
+            done: 0,
+            all: sweeps.iter().map(Sweep::paths).sum(),
+        }
+    }
+
+    /// A sweep's progress with the share and the time left of all of them.
+    fn over_all<'a>(&self, progress: Progress<'a>, paths: u64) -> Progress<'a> {
+        let share = (self.done as f64 + progress.share * paths as f64) / self.all.max(1) as f64;
+        let left = self.started.elapsed().as_secs_f64() * (1.0 / share - 1.0);
+        Progress {
+            share,
+            left: Duration::try_from_secs_f64(left).ok(),
+            ..progress
+        }
+    }
+}
+
+/// The study's own page. Where nothing is new, that of the call before is good.
+fn report(folder: &Path, experiment: &Experiment, study: &Study, new: bool) -> Result<()> {
+    let path = folder.join("report.html");
+    if !new && path.exists() {
+        return Ok(());
+    }
+    let about = About {
+        title: study.name.into(),
+        command: study.command(),
+        ..About::default()
+    };
+    write(&path, &page(&report_data(folder, experiment, about)?)?)
 }
 
 /// One study's sweep, and how many references it made.
@@ -112,10 +153,7 @@ fn run(
 }
 
 /// The points of the paper's three cases, as `lampray points` gives them.
-fn draw_points(order: Order, device: Option<&mut (dyn Device + 'static)>) -> Result<()> {
-    let Some(device) = device else {
-        return Ok(());
-    };
+fn draw_points(folder: &Path, device: &mut dyn Device) -> Result<()> {
     for case in CASES {
         let request = Request {
             kind: Kind::Light { distance: 4.0 },
@@ -127,7 +165,7 @@ fn draw_points(order: Order, device: Option<&mut (dyn Device + 'static)>) -> Res
             )],
         };
         let cloud = points::draw(device, &request)?;
-        write(&points_file(order.folder, case), &cloud.to_csv())?;
+        write(&points_file(folder, case), &cloud.to_csv())?;
     }
     Ok(())
 }

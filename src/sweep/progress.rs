@@ -42,6 +42,10 @@ impl Pace {
         }
     }
 
+    pub fn all(&self) -> u64 {
+        self.all
+    }
+
     pub fn add(&mut self, paths: u64) {
         self.done = self.done.saturating_add(paths);
     }

@@ -95,6 +95,11 @@ impl<'a> Sweep<'a> {
         })
     }
 
+    /// Paths of the runs and references that are not there yet.
+    pub fn paths(&self) -> u64 {
+        self.pace.all()
+    }
+
     /// The device that is open, for the next sweep: its pipelines are kept.
     pub fn into_device(self) -> Option<Box<dyn Device>> {
         self.device
