@@ -1,9 +1,9 @@
 //! What made the figures: nothing in it depends on the day.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The run of `lampray figures` that a page shows.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct About {
     /// Version of lampray.
     pub version: String,

@@ -449,3 +449,57 @@ pub fn relative_variance(group: &Group, region: usize) -> Quantity {
     );
     ratio(variance(group, region), square)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(value: f64, error: f64) -> Quantity {
+        Quantity::new(value, error * error, f64::INFINITY)
+    }
+
+    /// As many cells as a whole table has: two lamps, two rules, six regions.
+    fn rooms() -> Rooms {
+        let nothing = Interval::default();
+        let cell = |index: usize| Cell {
+            lamp: index / 12,
+            rules: index / 6 % 2,
+            region: format!("region {}", index % 6),
+            bias: [None; 3],
+            noise: [nothing; 3],
+            against: [of(0.0, 0.001), of(0.0, 0.001)],
+        };
+        Rooms {
+            cells: (0..24).map(cell).collect(),
+        }
+    }
+
+    #[test]
+    fn a_difference_is_told_at_the_level_of_the_whole_table() {
+        let rooms = rooms();
+        // 5 % over 48 differences: 3.28 standard errors on two sides, 3.08 on one.
+        assert_eq!(rooms.told(of(0.033, 0.01)), Told::Different);
+        assert_eq!(rooms.told(of(-0.033, 0.01)), Told::Different);
+        assert_eq!(rooms.told(of(0.032, 0.01)), Told::Neither);
+        assert_eq!(rooms.told(of(0.0, 0.0032)), Told::Same);
+        assert_eq!(rooms.told(of(0.0, 0.0034)), Told::Neither);
+        // Clearly there, and clearly below the margin: that is the same.
+        assert_eq!(rooms.told(of(0.004, 0.001)), Told::Same);
+    }
+
+    #[test]
+    fn the_largest_difference_that_is_told_is_named() {
+        let mut rooms = rooms();
+        assert_eq!(rooms.worst(1, 0), None);
+        rooms.cells[12].against[0] = of(-0.05, 0.001);
+        rooms.cells[13].against[0] = of(0.04, 0.001);
+        rooms.cells[14].against[0] = of(0.9, 0.5);
+        let worst = rooms.worst(1, 0).unwrap();
+        assert!(
+            worst.contains("darker") && worst.contains("region 0"),
+            "{worst}"
+        );
+        assert_eq!(rooms.worst(0, 0), None);
+        assert_eq!(rooms.worst(1, 1), None);
+    }
+}
