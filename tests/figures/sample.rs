@@ -81,7 +81,7 @@ fn five() -> Figure {
     };
     let pictures = Pictures {
         name: "balls".into(),
-        caption: "Three balls under one lamp, one exposure for all. Press a picture to see it large and to flip between neighbours.".into(),
+        caption: "Three balls under one lamp, one exposure for all.".into(),
         columns: words(&["Diffuse", "Directional, exponent 50", "Mirror"]),
         rows: vec![row(KINDS[0], 1.35), row(KINDS[1], 1.0)],
     };

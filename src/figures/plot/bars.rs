@@ -141,7 +141,7 @@ fn needed(plot: &Bars) -> f64 {
     let words = plot.groups.iter().map(|group| {
         let whole = text_width(&group.name, TEXT, false);
         // Two lines or three are well read; more are not.
-        widest_word(&group.name, TEXT).max(whole / 2.2) + 12.0
+        widest_word(&group.name, TEXT).max(whole / 1.9) + 12.0
     });
     let widest = words.fold(bars, f64::max);
     widest * plot.groups.len() as f64
