@@ -176,6 +176,10 @@ fn filled(plot: &Bars, axis: &Axis, frame: &Frame) -> Vec<[f64; 2]> {
     let mut filled = Vec::new();
     let base = base(plot, axis);
     for (index, group) in plot.groups.iter().enumerate() {
+        let ticks = group.predicted.iter().zip(stands(plot, index, frame));
+        filled.extend(
+            ticks.filter_map(|(predicted, [left, _])| Some([left, axis.at((*predicted)?)?])),
+        );
         for (bar, [left, right]) in group.bars.iter().zip(stands(plot, index, frame)) {
             let Some(top) = bar.and_then(|bar| axis.clamped(bar.high.max(bar.value))) else {
                 continue;
