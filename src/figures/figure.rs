@@ -128,6 +128,7 @@ pub struct Scale {
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Series {
+    /// Empty where it belongs to another series and is told by its look.
     pub name: String,
     pub look: Look,
     /// Index of its colour: series that belong together have the same.
@@ -141,6 +142,8 @@ pub struct Series {
 pub enum Look {
     /// Dots with error bars, joined by a thin line.
     Measured,
+    /// Dots with error bars, beside a line that says how they are joined.
+    Dots,
     /// Many points: a line with a band.
     Band,
     /// What theory says: a dashed line without dots.

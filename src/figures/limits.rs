@@ -142,9 +142,12 @@ fn plots(data: &Data, spheres: &[Vec<Level>; 2]) -> Result<Plots> {
     };
     let mut sphere = Vec::new();
     for (rules, levels) in spheres.iter().enumerate() {
-        sphere.push(measured(levels, RULES[rules].1, rules));
         sphere.push(Series {
-            name: format!("{}, theory", RULES[rules].1),
+            look: Look::Dots,
+            ..measured(levels, RULES[rules].1, rules)
+        });
+        sphere.push(Series {
+            name: String::new(),
             look: Look::Predicted,
             colour: rules,
             points: (1..=8)
@@ -162,7 +165,7 @@ fn plots(data: &Data, spheres: &[Vec<Level>; 2]) -> Result<Plots> {
     }
     Ok(Plots {
         name: "energy".into(),
-        caption: "Share of the light that is there with each limit: in the hollow ball, with its closed form, and in the room by region."
+        caption: "Share of the light that is there with each limit: in the hollow ball, dashed its closed form, and in the room by region."
             .into(),
         plots: vec![lines("Hollow ball", sphere), lines("Room, corrected", room)],
     })

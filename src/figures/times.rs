@@ -139,12 +139,12 @@ fn plots(curves: &[Curve]) -> Plots {
         let x = |step: &Step| f64::from(step.limit);
         let measured = mine().map(|curve| Series {
             name: STUDIES[curve.study].1.into(),
-            look: Look::Measured,
+            look: Look::Dots,
             colour: curve.study,
             points: curve.points(|step| Point::within(x(step), step.seconds.interval())),
         });
         let predicted = mine().map(|curve| Series {
-            name: format!("{}, in proportion to hits", STUDIES[curve.study].1),
+            name: String::new(),
             look: Look::Predicted,
             colour: curve.study,
             points: curve.points(|step| Point::exact(x(step), curve.by_hits.at(step.hits))),
@@ -242,8 +242,13 @@ fn verdict(curves: &[Curve]) -> Verdict {
         _ => Holds::Partly,
     };
     let words = |curve: &Curve| {
+        let seen = match told(curve) {
+            Holds::Yes => "run time is nearly a line",
+            Holds::No => "it levels off",
+            _ => "these times are too unsteady to tell",
+        };
         format!(
-            "limits 7 to 10 add {} times what limits 2 to 5 add ({} expected)",
+            "{seen}: limits 7 to 10 add {} times what limits 2 to 5 add, where the mean number of hits says {}",
             ranged(curve.straightness().interval()),
             number(curve.expected_straightness())
         )
@@ -251,8 +256,7 @@ fn verdict(curves: &[Curve]) -> Verdict {
     Verdict {
         holds,
         text: format!(
-            "With the limit alone run time is a line: {}. With thresholds, as the paper has them (t = {THRESHOLD}), it levels off: {}. It \
-             follows the mean number of hits, (1 - q^N) / (1 - q), which is a line for q = 1 alone.",
+            "With the limit alone {}. With thresholds, as the paper has them (t = {THRESHOLD}), {}.",
             words(alone),
             words(with)
         ),

@@ -206,7 +206,7 @@ fn lines(
         };
         series.push(Series {
             name: name.into(),
-            look: Look::Measured,
+            look: Look::Dots,
             colour: way,
             points: known.iter().map(point).collect(),
         });
@@ -217,7 +217,7 @@ fn lines(
                 Point::exact(q, factor * predict(law, q))
             };
             series.push(Series {
-                name: format!("{name}, theory"),
+                name: String::new(),
                 look: Look::Predicted,
                 colour: way,
                 points: (0..=48).map(at).collect(),

@@ -212,14 +212,7 @@ impl Penumbra {
             // Case 3 has the law of case 2.
             let laws = profiles
                 .filter(|profile| rules == 0 && profile.way < 3)
-                .map(|profile| {
-                    law(
-                        &format!("{}, theory", WAYS[profile.way].2),
-                        profile.way,
-                        profile,
-                        |column| column.predicted,
-                    )
-                });
+                .map(|profile| law("", profile.way, profile, |column| column.predicted));
             let truth = self
                 .of(rules, 0)
                 .map(|profile| law("truth", WAYS.len(), profile, |column| column.truth));

@@ -14,8 +14,8 @@ use crate::report::data::Interval;
 use std::fmt::Write as _;
 
 const ROOMS: [(&str, &str); 2] = [
-    ("fig7-small-lamp", "small lamp"),
-    ("fig7-large-lamp", "large lamp"),
+    ("fig7-small-lamp", "Small lamp"),
+    ("fig7-large-lamp", "Large lamp"),
 ];
 /// Differences up to this share of the light count as none.
 const MARGIN: f64 = 0.01;
@@ -345,7 +345,7 @@ impl Rooms {
             format!(
                 "case 1 has up to {} times the noise of case 2 ({}, {})",
                 number(share(cell)),
-                ROOMS[cell.lamp].1,
+                ROOMS[cell.lamp].1.to_lowercase(),
                 cell.region
             )
         })
