@@ -2,12 +2,11 @@
 //! quadrature.
 
 use super::RULES;
-use super::rooms::relative_variance;
 use crate::analysis::words::{number, ranged};
 use crate::analysis::{Group, Quantity};
 use crate::error::Result;
-use crate::figures::build::{chance, map};
-use crate::figures::data::{Data, mean};
+use crate::figures::build::{chance, map, ratio};
+use crate::figures::data::{Data, mean, variance};
 use crate::figures::figure::*;
 use crate::theory::{self, Law, chi_square_above, literal_ratio};
 use std::fmt::Write as _;
@@ -62,6 +61,17 @@ fn bias(group: &Group, q: f64) -> Quantity {
         value: level.value - 1.0,
         ..level
     }
+}
+
+/// Relative variance of a group in a region.
+fn relative_variance(group: &Group, region: usize) -> Quantity {
+    let level = mean(group, region);
+    let square = Quantity::new(
+        level.value * level.value,
+        (2.0 * level.value * level.error).powi(2),
+        level.freedom,
+    );
+    ratio(variance(group, region), square)
 }
 
 impl Alone {

@@ -245,7 +245,7 @@ impl Penumbra {
 
     pub fn results(&self) -> Vec<String> {
         let mut sentences = Vec::new();
-        for rules in 0..2 {
+        for (rules, (_, label)) in RULES.into_iter().enumerate() {
             let profiles = self
                 .profiles
                 .iter()
@@ -257,7 +257,7 @@ impl Penumbra {
                 });
             sentences.push(format!(
                 "Penumbra, {}: {count:.0} columns of four profiles against their closed forms: chi-square {} (p = {}).",
-                RULES[rules].1,
+                label,
                 number(square),
                 chance(chi_square_above(square, count))
             ));
