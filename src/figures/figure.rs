@@ -20,6 +20,8 @@ pub struct Figure {
     pub blocks: Vec<Block>,
     /// Commands that make the data again.
     pub commands: Vec<String>,
+    /// Pages of the sweeps that the data are from, beside the page of the figures.
+    pub sweeps: Vec<String>,
     /// What the data are, as files.
     pub data: Vec<DataFile>,
 }

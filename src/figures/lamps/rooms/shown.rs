@@ -1,6 +1,6 @@
 //! The rooms as pictures, bars, a table and a file.
 
-use super::{Cell, ROOMS, Rooms, group};
+use super::{Cell, ROOMS, Rooms, WHOLE, group};
 use crate::error::Result;
 use crate::figures::build::{self, map, shown};
 use crate::figures::data::{CASES, Data};
@@ -8,9 +8,6 @@ use crate::figures::figure::*;
 use crate::figures::lamps::{CASE_NAMES, RULES};
 use crate::report::data::Interval;
 use std::fmt::Write as _;
-
-/// Name of the first region.
-const WHOLE: &str = "whole picture";
 
 fn has_numbers(group: &BarGroup) -> bool {
     group.bars.iter().any(Option::is_some)
@@ -65,13 +62,13 @@ impl Rooms {
         vec![
             Block::Plots(self.bars(
                 "bias",
-                "Bias of each case by region against the reference; whiskers are 95 % intervals.",
+                "Bias of each case by region against the reference, whose own error the three have in common; whiskers are 95 % intervals.",
                 ("bias, %", 0.0),
                 &bias,
             )),
             Block::Plots(self.bars(
                 "noise",
-                "Noise of each case by region: standard deviation of one sample over the mean.",
+                "Noise of each case by region: standard deviation of one sample over the mean. (Of the whole picture it would be that of the lamp’s edge.)",
                 ("noise, %", 0.0),
                 &noise,
             )),
@@ -148,8 +145,9 @@ impl Rooms {
             "",
         ];
         Table {
-            caption: "Difference of the means, 95 % intervals; verdicts at 5 % over the whole table. Cases 2 and 3 are one \
-                      distribution: the last column is the control."
+            caption: "Difference of the means. Brackets are 95 % intervals of each difference by itself; the verdicts allow a chance of 5 % for any \
+                      mistake in the whole table. Same within 1 % is said where the whole interval for that is inside 1 %, even where the \
+                      difference is clearly not 0. Cases 2 and 3 are one distribution: the last columns are the control."
                 .into(),
             head: head.map(String::from).to_vec(),
             rows: self.cells.iter().map(row).collect(),
