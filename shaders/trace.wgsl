@@ -6,6 +6,7 @@
 // #import camera
 // #import ray
 // #import scene
+// #import traversal
 // #import scatter
 // #import light
 // #import interruption
@@ -261,6 +262,9 @@ fn main(@builtin(global_invocation_id) lane: vec3<u32>) {
     var path = start_path(pixel, sample_index(0u));
     for (var step = 0u; step < job.steps; step++) {
         step_path(&path);
+        if cut_short() {
+            break;
+        }
         if !path.alive {
             add_sample(&run, path);
             count += 1u;

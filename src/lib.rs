@@ -24,6 +24,7 @@
 //! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` alone reads group 0) |
 //! | [`knobs`] | the one table of knobs, the presets, the typed settings |
 //! | [`scene`] | the scene's types, the TOML parser with places, the checks |
+//! | [`bvh`] | bodies' bounds as a tree that is walked without a stack |
 //! | [`pack`] | a scene as `#[repr(C)]` buffers and a strategy of override constants |
 //! | [`shader`] | joins the WGSL files, prints constants from the Rust enums, parses and validates |
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
@@ -67,6 +68,7 @@
 #![forbid(unsafe_code)]
 
 pub mod analysis;
+pub mod bvh;
 pub mod calibrate;
 pub mod cli;
 pub mod compare;

@@ -213,6 +213,7 @@ fn arrays(length: usize) -> SceneArrays {
         spheres: length,
         boxes: length,
         lamps: length,
+        nodes: 0,
     }
 }
 
@@ -335,6 +336,7 @@ fn a_scene_in_one_buffer_lies_as_it_is_uploaded() {
             spheres,
             boxes,
             lamps,
+            nodes: 0,
         };
         for kernel in [Kernel::Trace, Kernel::Features] {
             let printed = printed_offsets(&module(kernel, arrays));

@@ -4,6 +4,7 @@ use super::adapter::Adapters;
 use super::guard::Guard;
 use super::pieces::{Allowance, Gathered, pieces};
 use super::pipeline::Pipeline;
+use crate::bvh::Tree;
 use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
@@ -12,6 +13,9 @@ use crate::shader::{Kernel, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashMap;
 use std::sync::Arc;
+
+/// The id of a feature whose ray was left before its end.
+const UNFINISHED: u32 = u32::MAX;
 
 /// The buffers that results come back in; they grow with the largest block so far.
 #[derive(Debug)]
@@ -88,6 +92,7 @@ impl Gpu {
             spheres: 1,
             boxes: 1,
             lamps: 1,
+            nodes: 0,
         };
         let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays.unwrap_or(none))?;
         let pipeline = Arc::new(pipeline);
@@ -180,12 +185,53 @@ impl Gpu {
         let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
         let count = rect.area() * runs(first_sample, samples) as usize;
         let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        let tallies: Vec<Tally> = self.dispatch(&pipeline, true, &inputs, tiles(rect), count)?;
-        // Every sample takes a ray: a tally without one was never written.
-        match tallies.iter().all(|tally| tally.rays > 0) {
-            true => Ok(tallies),
-            false => Err(self.cut_short("a path took too many steps")),
+        self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
+    }
+
+    /// Traces again, in halves, what lanes left undone: pixels without tallies. Which those are depends on
+    /// their own samples alone, and a run is broken only where it is too long by itself, so that the
+    /// picture does not depend on how the work was split.
+    fn mend(
+        &mut self,
+        rect: Rect,
+        first_sample: u64,
+        samples: u32,
+        mut tallies: Vec<Tally>,
+    ) -> Result<Vec<Tally>> {
+        let area = rect.area();
+        for pixel in 0..area {
+            // Every sample takes a ray: a tally without one was never written.
+            if tallies.iter().skip(pixel).step_by(area).all(|tally| tally.rays > 0) {
+                continue;
+            }
+            if samples == 1 || self.scene()?.packed.tree.is_none() {
+                return Err(self.cut_short("a path took too many steps"));
+            }
+            let alone = rect.pixel(pixel);
+            let half = samples.next_power_of_two() / 2;
+            let whole = self.trace_in_pieces(alone, first_sample, samples, half)?;
+            for (run, tally) in whole.into_iter().enumerate() {
+                tallies[run * area + pixel] = tally;
+            }
         }
+        Ok(tallies)
+    }
+
+    fn trace_in_pieces(
+        &mut self,
+        rect: Rect,
+        first_sample: u64,
+        samples: u32,
+        most: u32,
+    ) -> Result<Vec<Tally>> {
+        let steps = self.scene()?.allowance.steps;
+        let mut gathered = Gathered::new(rect.area());
+        for (first, count) in pieces(first_sample, samples, most) {
+            let tallies = self.trace_piece(rect, first, count, steps)?;
+            let tallies = self.mend(rect, first, count, tallies)?;
+            gathered.add(first, count, &tallies);
+        }
+        Ok(gathered.tallies)
     }
 
     fn cut_short(&self, what: &str) -> Error {
@@ -226,6 +272,14 @@ fn padded<T: Pod + Zeroable>(items: &[T], length: usize) -> Vec<u8> {
     bytes
 }
 
+/// A tree's nodes, with the iterations that a lane may take among them.
+fn counted(tree: &Tree, iterations: u32) -> Vec<u8> {
+    let mut nodes = tree.nodes.clone();
+    let (entry, word) = Tree::ITERATIONS;
+    nodes[entry][word] = iterations;
+    bytemuck::cast_slice(&nodes).to_vec()
+}
+
 /// Groups of 8 x 8 lanes over a rectangle.
 fn tiles(rect: Rect) -> [u32; 2] {
     [rect.width().div_ceil(8), rect.height().div_ceil(8)]
@@ -242,12 +296,16 @@ impl Device for Gpu {
             self.cut_short(&format!("{bodies} bodies are more than it goes through"))
         })?;
         let arrays = SceneArrays::new(scene);
-        let bytes = [
+        let mut bytes = vec![
             padded(&scene.materials, arrays.materials),
             padded(&scene.spheres, arrays.spheres),
             padded(&scene.boxes, arrays.boxes),
             padded(&scene.lamps, arrays.lamps),
         ];
+        if let Some(tree) = &scene.tree {
+            bytes.push(counted(tree, allowance.iterations));
+            bytes.push(padded(&tree.bodies, arrays.nodes));
+        }
         let guard = &self.guard;
         let buffers = if arrays.is_uniform() {
             vec![guard.filled(&bytes.concat(), wgpu::BufferUsages::UNIFORM)?]
@@ -278,13 +336,8 @@ impl Device for Gpu {
     }
 
     fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let allowance = self.scene()?.allowance;
-        let mut gathered = Gathered::new(rect.area());
-        for (first, count) in pieces(first_sample, samples, allowance.samples) {
-            let tallies = self.trace_piece(rect, first, count, allowance.steps)?;
-            gathered.add(first, count, &tallies);
-        }
-        Ok(gathered.tallies)
+        let most = self.scene()?.allowance.samples;
+        self.trace_in_pieces(rect, first_sample, samples, most)
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
@@ -297,7 +350,12 @@ impl Device for Gpu {
         let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
         let pipeline = self.pipeline(Kernel::Features, &strategy, Some(arrays))?;
         let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        self.dispatch(&pipeline, true, &inputs, tiles(rect), rect.area())
+        let features: Vec<Feature> =
+            self.dispatch(&pipeline, true, &inputs, tiles(rect), rect.area())?;
+        match features.iter().all(|feature| feature.id != UNFINISHED) {
+            true => Ok(features),
+            false => Err(self.cut_short("a ray met too many bodies' bounds")),
+        }
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {

@@ -1,13 +1,19 @@
 //! Mesa's software drivers leave every loop of an invocation, without a word, once its loops
 //! together have taken 65,535 iterations (`LP_MAX_TGSI_LOOP_ITERATIONS`; so with 22.3.6). There a
-//! pixel's samples come in pieces that stay below that, whatever their paths do.
+//! pixel's samples come in pieces that stay below that. Where rays try every body, a piece stays below it
+//! whatever its paths do. In a tree they could visit every node, but never do: there each lane counts,
+//! and stops without a tally at its share of the iterations; what it left is traced again in smaller pieces.
 
+use crate::bvh::Tree;
 use crate::device::{DeviceKind, run_ranges};
 use crate::knobs::LightStrategy;
 use crate::pack::{Packed, RUN_LENGTH, Tally};
 
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
+/// Lanes that a software driver runs in step, 32 bits each in its widest vectors: their loops go on
+/// until the last is done, so that together they may take no more than one may.
+const LANES: u64 = 8;
 
 /// How much of a pixel one dispatch may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,6 +22,8 @@ pub struct Allowance {
     pub steps: u32,
     /// Samples: a power of two.
     pub samples: u32,
+    /// Iterations of a lane's loops where it counts them.
+    pub iterations: u32,
 }
 
 impl Allowance {
@@ -25,13 +33,31 @@ impl Allowance {
             return Some(Self {
                 steps: u32::MAX,
                 samples: 1 << 31,
+                iterations: u32::MAX,
             });
+        }
+        if let Some(tree) = &scene.tree {
+            return Self::in_tree(scene, tree);
         }
         let steps = SOFTWARE_ITERATIONS / iterations(scene);
         let samples = (steps / (u64::from(scene.max_bounces) + 1)).max(1);
         (steps > 0).then_some(Self {
             steps: steps as u32,
             samples: 1 << samples.ilog2(),
+            iterations: u32::MAX,
+        })
+    }
+
+    /// On a software driver, where lanes count their iterations.
+    fn in_tree(scene: &Packed, tree: &Tree) -> Option<Self> {
+        let lamps = scene.lamps.len() as u64;
+        // A lane that stops finishes its step: one more look at each lamp and at what is outside.
+        let last_step = lamps + tree.outside() as u64 + 8;
+        let iterations = (SOFTWARE_ITERATIONS / LANES).checked_sub(last_step)?;
+        Some(Self {
+            steps: u32::MAX,
+            samples: 64,
+            iterations: iterations as u32,
         })
     }
 }

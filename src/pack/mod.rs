@@ -3,14 +3,19 @@
 mod layout;
 mod rect;
 mod strategy;
+mod traversal;
+mod tree;
 
 pub use layout::*;
 pub use rect::Rect;
 pub use strategy::{LastRay, RUN_LENGTH, Strategy};
+pub use traversal::Traversal;
 
+use crate::bvh::Tree;
 use crate::knobs::{Choice, Pole, ScatterBound, Settings};
 use crate::scene::{self, Scene};
 use glam::{DMat3, DVec3};
+use std::sync::Arc;
 
 /// A scene as a device sees it: in the eye's own place, so that what is near has small coordinates.
 #[derive(Clone, Debug)]
@@ -28,6 +33,8 @@ pub struct Packed {
     /// Unrotated boxes first.
     pub boxes: Vec<Cuboid>,
     pub lamps: Vec<Lamp>,
+    /// Where rays find bodies by a tree: the tree.
+    pub tree: Option<Arc<Tree>>,
     pub strategy: Strategy,
 }
 
@@ -44,6 +51,8 @@ impl Packed {
             rotated,
             lamps.len() as u32,
         );
+        let by_tree = Traversal::of(scene) == Traversal::Bvh;
+        let tree = by_tree.then(|| Arc::new(tree::tree(&spheres, &boxes)));
         let material = |material| pack_material(material, settings.scatter.bound);
         Self {
             camera: pack_camera(&scene.camera, settings.image.width, settings.image.height),
@@ -57,6 +66,7 @@ impl Packed {
             spheres,
             boxes,
             lamps,
+            tree,
             strategy,
         }
     }

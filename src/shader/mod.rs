@@ -9,7 +9,8 @@ pub use library::LIBRARY;
 
 use crate::error::{Error, Result};
 use crate::knobs::*;
-use crate::pack::{self, LastRay, Packed, RUN_LENGTH};
+use crate::bvh;
+use crate::pack::{self, LastRay, Packed, RUN_LENGTH, Traversal};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 choice! {
@@ -54,6 +55,8 @@ pub struct SceneArrays {
     pub spheres: usize,
     pub boxes: usize,
     pub lamps: usize,
+    /// Entries of the tree; 0 where rays find bodies without one.
+    pub nodes: usize,
 }
 
 /// One array of the scene: the name of its accessor, its WGSL element type, its length, and the
@@ -75,6 +78,7 @@ impl SceneArrays {
             spheres: room(packed.spheres.len()),
             boxes: room(packed.boxes.len()),
             lamps: room(packed.lamps.len()),
+            nodes: packed.tree.as_ref().map_or(0, |tree| tree.nodes.len()),
         };
         let rounded = lengths(|count| count.max(1).next_power_of_two());
         if rounded.is_uniform() {
@@ -85,14 +89,14 @@ impl SceneArrays {
     }
 
     /// The arrays in the order in which they are bound or lie in the uniform buffer.
-    pub fn list(&self) -> [SceneArray; 4] {
+    pub fn list(&self) -> Vec<SceneArray> {
         let array = |name, element, length, stride| SceneArray {
             name,
             element,
             length,
             stride,
         };
-        [
+        let mut arrays = vec![
             array(
                 "material_at",
                 "Material",
@@ -107,12 +111,30 @@ impl SceneArrays {
             ),
             array("box_at", "Box", self.boxes, size_of::<pack::Cuboid>()),
             array("lamp_at", "Lamp", self.lamps, size_of::<pack::Lamp>()),
-        ]
+        ];
+        if self.nodes > 0 {
+            arrays.push(array("node_at", "vec4<u32>", self.nodes, size_of::<bvh::Encoded>()));
+            arrays.push(array("node_body_at", "u32", self.nodes, size_of::<u32>()));
+        }
+        arrays
+    }
+
+    /// How rays find bodies in a scene of these arrays.
+    pub fn traversal(&self) -> Traversal {
+        match self.nodes {
+            0 => Traversal::General,
+            _ => Traversal::Bvh,
+        }
     }
 
     /// Whether the whole scene is one uniform buffer. It is one and not four because lavapipe 22.3
     /// writes past a table of its own for a kernel's fourth uniform buffer, and crashes.
+    ///
+    /// A tree is never in one: an array of u32 would take four times its room there.
     pub fn is_uniform(&self) -> bool {
+        if self.traversal() == Traversal::Bvh {
+            return false;
+        }
         let bytes: usize = self
             .list()
             .iter()
@@ -182,7 +204,7 @@ pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
         Kernel::Trace | Kernel::Features => arrays.declarations(),
         Kernel::Points | Kernel::Probe => String::new(),
     };
-    join(kernel.name(), &(constants() + &scene))
+    join(kernel.name(), &(constants() + &scene), arrays.traversal())
 }
 
 /// Parses a kernel's text; a fault is reported with the file and line it stands in.
