@@ -10,11 +10,18 @@
 // #import box
 // #import scene
 
-// Entries of the list before those of the bodies outside the tree.
+// Few bodies that are large beside all others stand outside the tree.
+override OUTSIDE_SPHERE_COUNT: u32;
+override OUTSIDE_BOX_COUNT: u32;
+override OUTSIDE_ROTATED_COUNT: u32;
+
+// Entries of the list before the first node.
 const HEADER: u32 = 3u;
 // In an inner node and in the leaf of a box; in the leaf of a box alone.
 const NOT_SPHERE: u32 = 0x80000000u;
 const BOX: u32 = 0x40000000u;
+// The body that a ray starts inside of, as the entry that it tries first.
+const OWN: u32 = 0u;
 // Boxes grow by this share of the distance to the farthest that the tree holds. Rounding moves rays and
 // bodies by less than half of it there: six units in the last place of the distance where
 // `intersect_sphere` squares it, and ten where the direction's length is that far from one.
@@ -33,8 +40,11 @@ struct Walk {
     far_start: vec3<f32>,
     // Where in a node's words the near side's number is: 0 or 16.
     near_shift: vec3<u32>,
-    // The entry in hand, and that behind the last.
-    node: u32,
+    // The entry in hand, and its words.
+    place: u32,
+    node: vec4<u32>,
+    // The first entry of the order, and that behind its last.
+    first: u32,
     end: u32,
 }
 
@@ -42,31 +52,53 @@ fn cut_short() -> bool {
     return spent >= node_at(2u).y;
 }
 
+// The leaf of the body that the ray starts on.
+fn own_leaf(ray: Ray) -> vec4<u32> {
+    if ray.source > SPHERE_COUNT {
+        return vec4<u32>(ray.source - SPHERE_COUNT - 1u, 0u, 0u, NOT_SPHERE | BOX);
+    }
+    let own = sphere_at(ray.source - 1u);
+    return vec4<u32>(bitcast<vec3<u32>>(own.center), bitcast<u32>(own.radius));
+}
+
 fn start_walk(ray: Ray) -> Walk {
     let order_length = node_at(0u).w;
     let cell = bitcast<vec3<f32>>(node_at(1u).xyz);
     let lower = bitcast<vec3<f32>>(node_at(0u).xyz) - ray.origin;
-    let half_diagonal = bitcast<f32>(node_at(2u).z);
+    let half_diagonal = bitcast<f32>(node_at(2u).x);
     let inverse = safe_inverse(ray.direction);
     let slack = SLACK * (length(lower + 32767.5 * cell) + half_diagonal) * abs(inverse);
     let backwards = inverse < vec3<f32>(0.0);
     let bits = select(vec3<u32>(0u), vec3<u32>(1u, 2u, 4u), backwards);
     let octant = (bits.x | bits.y | bits.z) & node_at(1u).w;
-    let first = HEADER + node_at(2u).x + octant * order_length;
-    return Walk(
+    let first = HEADER + octant * order_length;
+    var walk = Walk(
         cell * inverse,
         lower * inverse - slack,
         lower * inverse + slack,
         select(vec3<u32>(0u), vec3<u32>(16u), backwards),
         first,
+        node_at(first),
+        first,
         first + order_length,
     );
+    if ray.inside {
+        walk.place = OWN;
+        walk.node = own_leaf(ray);
+    }
+    return walk;
+}
+
+fn go_to(walk: ptr<function, Walk>, place: u32) {
+    (*walk).place = min(place, (*walk).end);
+    (*walk).node = node_at((*walk).place);
 }
 
 // Whether a ray enters an inner node's box nearer than `reach`.
-fn enters(walk: Walk, node: vec4<u32>, reach: f32) -> bool {
-    let near_line = (node.xyz >> walk.near_shift) & vec3<u32>(0xffffu);
-    let far_line = (node.xyz >> (vec3<u32>(16u) - walk.near_shift)) & vec3<u32>(0xffffu);
+fn enters(walk: Walk, reach: f32) -> bool {
+    let lines = walk.node.xyz;
+    let near_line = (lines >> walk.near_shift) & vec3<u32>(0xffffu);
+    let far_line = (lines >> (vec3<u32>(16u) - walk.near_shift)) & vec3<u32>(0xffffu);
     // Signed numbers are the ones that processors convert.
     let enter = vec3<f32>(bitcast<vec3<i32>>(near_line)) * walk.step + walk.near_start;
     let leave = vec3<f32>(bitcast<vec3<i32>>(far_line)) * walk.step + walk.far_start;
@@ -75,42 +107,63 @@ fn enters(walk: Walk, node: vec4<u32>, reach: f32) -> bool {
     return near <= far;
 }
 
-fn box_crossing(index: u32, ray: Ray) -> Crossing {
-    let shape = box_at(index);
-    if index >= BOX_COUNT {
+fn at_leaf(walk: Walk) -> bool {
+    return (walk.node.w & (NOT_SPHERE | BOX)) != NOT_SPHERE;
+}
+
+// Past an inner node, into it or beyond; leaves are left in hand. At the end of the list it stays there:
+// what stands behind it is an idle node, or another order's root, which may be looked at twice.
+fn descend(walk: ptr<function, Walk>, reach: f32) {
+    if !at_leaf(*walk) {
+        let skip = (*walk).node.w & ~NOT_SPHERE;
+        go_to(walk, (*walk).place + select(skip, 1u, enters(*walk, reach)));
+    }
+}
+
+fn box_crossing(shape: Box, rotated: bool, ray: Ray) -> Crossing {
+    if rotated {
         return rotated_box_crossing(shape, ray);
     }
     return intersect_box(shape.half_size, ray.origin - shape.center, safe_inverse(ray.direction));
 }
 
-// First distance to the body of a leaf, which is entry number `place`; none where it cannot be nearer
-// than `reach`, nor as near.
-fn leaf_hit(leaf: vec4<u32>, place: u32, ray: Ray, reach: f32) -> Hit {
+// First distance to the body of the leaf in hand; none where it cannot be nearer than `reach`, nor as
+// near. The body that the ray starts inside of is met whatever the rounding.
+fn leaf_hit(walk: Walk, ray: Ray, reach: f32) -> Hit {
+    let leaf = walk.node;
     var crossing: Crossing;
     if leaf.w >= NOT_SPHERE {
-        crossing = box_crossing(leaf.x, ray);
+        crossing = box_crossing(box_at(leaf.x), leaf.x >= BOX_COUNT, ray);
     } else {
         crossing = intersect_sphere(bitcast<vec3<f32>>(leaf.xyz), bitcast<f32>(leaf.w), ray);
     }
     let ahead = select(crossing.far, crossing.near, crossing.near > 0.0);
-    if !crossing.met || ahead > reach || ahead <= 0.0 {
+    let own = walk.place == OWN;
+    if !own && (!crossing.met || ahead > reach || ahead <= 0.0) {
         return Hit(-1.0, 0u);
     }
-    let body = node_body_at(place);
+    let body = select(node_body_at(walk.place), ray.source, own);
     return Hit(first_distance(crossing, ray, body), body);
 }
 
-// The far side of the body that the ray starts inside of. It is found whatever the rounding, and so
-// not left to boxes.
-fn own_hit(ray: Ray) -> Hit {
-    if !ray.inside {
-        return Hit(-1.0, 0u);
-    }
-    if ray.source > SPHERE_COUNT {
-        return Hit(first_distance(box_crossing(ray.source - SPHERE_COUNT - 1u, ray), ray, ray.source), ray.source);
-    }
-    let own = sphere_at(ray.source - 1u);
-    return Hit(first_distance(intersect_sphere(own.center, own.radius, ray), ray, ray.source), ray.source);
+fn after_leaf(walk: Walk) -> u32 {
+    return select(walk.place + 1u, walk.first, walk.place == OWN);
+}
+
+fn outside_sphere_hit(index: u32, ray: Ray) -> Hit {
+    let shape = outside_sphere_at(index);
+    return Hit(first_distance(intersect_sphere(shape.center, shape.radius, ray), ray, shape.body), shape.body);
+}
+
+fn outside_box_hit(index: u32, inverse: vec3<f32>, ray: Ray) -> Hit {
+    let shape = outside_box_at(index);
+    let crossing = intersect_box(shape.half_size, ray.origin - shape.center, inverse);
+    return Hit(first_distance(crossing, ray, shape.body), shape.body);
+}
+
+fn outside_rotated_hit(index: u32, ray: Ray) -> Hit {
+    let shape = outside_box_at(index);
+    return Hit(first_distance(rotated_box_crossing(shape, ray), ray, shape.body), shape.body);
 }
 
 // The nearer of two hits; of equal ones that of the first body.
@@ -120,81 +173,79 @@ fn nearer(best: Hit, other: Hit) -> Hit {
     return Hit(select(best.distance, other.distance, closer), select(best.body, other.body, closer));
 }
 
-fn blocks(hit: Hit, reach: f32, target_body: u32) -> bool {
-    return hit.distance > 0.0 && hit.distance < reach && hit.body != target_body;
-}
-
-// One entry of the list. At the end it stays there.
-fn visit_nearest(walk: ptr<function, Walk>, best: ptr<function, Hit>, ray: Ray) {
-    let place = (*walk).node;
-    let node = node_at(place);
-    var next = place + 1u;
-    if (node.w & (NOT_SPHERE | BOX)) == NOT_SPHERE {
-        if !enters(*walk, node, (*best).distance) {
-            next = place + (node.w & ~NOT_SPHERE);
-        }
-    } else {
-        *best = nearer(*best, leaf_hit(node, place, ray, (*best).distance));
+fn nearest_outside(ray: Ray) -> Hit {
+    var best = Hit(3e38, 0u);
+    for (var i = 0u; i < OUTSIDE_SPHERE_COUNT; i++) {
+        best = nearer(best, outside_sphere_hit(i, ray));
     }
-    (*walk).node = min(next, (*walk).end);
-}
-
-fn nearest_hit(ray: Ray) -> Hit {
-    let outside = node_at(2u).x;
-    spent += LAMP_COUNT + outside + 3u;
-    var best = nearer(Hit(3e38, 0u), own_hit(ray));
-    for (var place = HEADER; place < HEADER + outside; place++) {
-        best = nearer(best, leaf_hit(node_at(place), place, ray, best.distance));
+    let inverse = safe_inverse(ray.direction);
+    for (var i = 0u; i < OUTSIDE_BOX_COUNT; i++) {
+        best = nearer(best, outside_box_hit(i, inverse, ray));
     }
-    var walk = start_walk(ray);
-    while walk.node < walk.end && !cut_short() {
-        spent += 1u;
-        visit_nearest(&walk, &best, ray);
-        visit_nearest(&walk, &best, ray);
-        visit_nearest(&walk, &best, ray);
-        visit_nearest(&walk, &best, ray);
+    for (var i = OUTSIDE_BOX_COUNT; i < OUTSIDE_BOX_COUNT + OUTSIDE_ROTATED_COUNT; i++) {
+        best = nearer(best, outside_rotated_hit(i, ray));
     }
     return best;
 }
 
-// One entry of the list; whether its body stands in the way.
-fn visit_any(walk: ptr<function, Walk>, ray: Ray, reach: f32, target_body: u32) -> bool {
-    let place = (*walk).node;
-    let node = node_at(place);
-    var next = place + 1u;
-    var blocked = false;
-    if (node.w & (NOT_SPHERE | BOX)) == NOT_SPHERE {
-        if !enters(*walk, node, reach) {
-            next = place + (node.w & ~NOT_SPHERE);
+fn nearest_hit(ray: Ray) -> Hit {
+    spent += LAMP_COUNT + 24u;
+    var best = nearest_outside(ray);
+    var walk = start_walk(ray);
+    while walk.place < walk.end && !cut_short() {
+        spent += 1u;
+        descend(&walk, best.distance);
+        descend(&walk, best.distance);
+        descend(&walk, best.distance);
+        descend(&walk, best.distance);
+        if at_leaf(walk) {
+            best = nearer(best, leaf_hit(walk, ray, best.distance));
+            go_to(&walk, after_leaf(walk));
         }
-    } else {
-        blocked = blocks(leaf_hit(node, place, ray, reach), reach, target_body);
     }
-    (*walk).node = select(min(next, (*walk).end), (*walk).end, blocked);
+    return best;
+}
+
+fn blocks(hit: Hit, reach: f32, target_body: u32) -> bool {
+    return hit.distance > 0.0 && hit.distance < reach && hit.body != target_body;
+}
+
+fn blocked_outside(ray: Ray, reach: f32, target_body: u32) -> bool {
+    var blocked = false;
+    for (var i = 0u; i < OUTSIDE_SPHERE_COUNT; i++) {
+        let met = blocks(outside_sphere_hit(i, ray), reach, target_body);
+        blocked = blocked || met;
+    }
+    let inverse = safe_inverse(ray.direction);
+    for (var i = 0u; i < OUTSIDE_BOX_COUNT; i++) {
+        let met = blocks(outside_box_hit(i, inverse, ray), reach, target_body);
+        blocked = blocked || met;
+    }
+    for (var i = OUTSIDE_BOX_COUNT; i < OUTSIDE_BOX_COUNT + OUTSIDE_ROTATED_COUNT; i++) {
+        let met = blocks(outside_rotated_hit(i, ray), reach, target_body);
+        blocked = blocked || met;
+    }
     return blocked;
 }
 
 // Whether anything but the body `target_body` stands nearer than `reach`.
 fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
-    if cut_short() {
+    spent += 24u;
+    var blocked = cut_short() || blocked_outside(ray, reach, target_body);
+    if blocked {
         return true;
     }
-    let outside = node_at(2u).x;
-    spent += outside + 2u;
-    var blocked = blocks(own_hit(ray), reach, target_body);
-    for (var place = HEADER; place < HEADER + outside; place++) {
-        let blocks_too = blocks(leaf_hit(node_at(place), place, ray, reach), reach, target_body);
-        blocked = blocked || blocks_too;
-    }
     var walk = start_walk(ray);
-    walk.node = select(walk.node, walk.end, blocked);
-    while walk.node < walk.end && !cut_short() {
+    while walk.place < walk.end && !cut_short() {
         spent += 1u;
-        let first = visit_any(&walk, ray, reach, target_body);
-        let second = visit_any(&walk, ray, reach, target_body);
-        let third = visit_any(&walk, ray, reach, target_body);
-        let fourth = visit_any(&walk, ray, reach, target_body);
-        blocked = blocked || first || second || third || fourth;
+        descend(&walk, reach);
+        descend(&walk, reach);
+        descend(&walk, reach);
+        descend(&walk, reach);
+        if at_leaf(walk) {
+            blocked = blocks(leaf_hit(walk, ray, reach), reach, target_body);
+            go_to(&walk, select(after_leaf(walk), walk.end, blocked));
+        }
     }
     return blocked;
 }

@@ -97,7 +97,8 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 center,
                 radius,
                 material,
-                lamp
+                lamp,
+                body
             }),
         ),
         (
@@ -107,6 +108,7 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 material,
                 half_size,
                 id,
+                body,
                 axis_x,
                 axis_y,
                 axis_z
@@ -213,7 +215,7 @@ fn arrays(length: usize) -> SceneArrays {
         spheres: length,
         boxes: length,
         lamps: length,
-        nodes: 0,
+        ..SceneArrays::default()
     }
 }
 
@@ -336,7 +338,7 @@ fn a_scene_in_one_buffer_lies_as_it_is_uploaded() {
             spheres,
             boxes,
             lamps,
-            nodes: 0,
+            ..SceneArrays::default()
         };
         for kernel in [Kernel::Trace, Kernel::Features] {
             let printed = printed_offsets(&module(kernel, arrays));

@@ -167,7 +167,7 @@ fn every_patched_shader_compiles() {
         spheres: 4,
         boxes: 4,
         lamps: 2,
-        nodes: 0,
+        ..SceneArrays::default()
     };
     for patch in patches() {
         let mut joined = shader::source(Kernel::Trace, arrays).unwrap();

@@ -17,7 +17,7 @@ fn arrays(materials: usize, spheres: usize, boxes: usize, lamps: usize) -> Scene
         spheres,
         boxes,
         lamps,
-        nodes: 0,
+        ..SceneArrays::default()
     }
 }
 

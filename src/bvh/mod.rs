@@ -5,8 +5,7 @@
 //! |---|---|
 //! | header 0 | where the grid starts, x, y, z (f32); nodes of one order |
 //! | header 1 | the grid's cell, x, y, z (f32); which bits of a ray's octant choose its order |
-//! | header 2 | number of bodies outside the tree; most iterations of a lane; half of the grid's diagonal (f32); 0 |
-//! | body outside the tree | as a leaf |
+//! | header 2 | half of the grid's diagonal (f32); most iterations of a lane; 0; 0 |
 //! | inner node | for x, y and z the grid lines around it, lower in the low half; bit 31 and the nodes of the subtree |
 //! | leaf, a sphere | its centre, x, y, z (f32); its radius (f32), whose bit 31 is clear |
 //! | leaf, a box | its index; 0; 0; bits 31 and 30 |
@@ -33,7 +32,7 @@ use thread::{Slots, thread};
 
 /// The longest list of nodes: what every device can bind.
 pub const MOST_BYTES: usize = 128 << 20;
-/// Entries before those of the bodies outside the tree.
+/// Entries before the first node.
 pub const HEADER: usize = 3;
 /// Set in an inner node and in the leaf of a box.
 pub const NOT_SPHERE: u32 = 1 << 31;
@@ -49,6 +48,8 @@ pub struct Tree {
     pub nodes: Vec<Encoded>,
     /// The body of each entry, counted from 1; 0 for what is no leaf.
     pub bodies: Vec<u32>,
+    /// The bodies that stand outside the tree, in order.
+    pub outside: Vec<u32>,
 }
 
 impl Tree {
@@ -63,27 +64,27 @@ impl Tree {
         let tree = hierarchy::build(items);
         let hull = tree.first().map_or(Bounds::EMPTY, |root| root.bounds);
         let grid = Grid::over(&hull);
-        let orders = orders(tree.len(), outside.len());
-        let mut nodes = header(&grid, tree.len(), orders, outside.len());
-        let mut bodies = vec![0; HEADER];
-        for item in outside {
-            nodes.push(leaf(item.body as usize - 1));
-            bodies.push(item.body);
-        }
-        let start = nodes.len();
-        let length = start + orders * tree.len() + 1;
+        let orders = orders(tree.len());
+        let length = HEADER + orders * tree.len() + 1;
+        let mut nodes = header(&grid, tree.len(), orders);
         nodes.resize(length, [0, 0, 0, NOT_SPHERE]);
-        bodies.resize(length, 0);
+        let mut bodies = vec![0; length];
         let encoded = encode(&tree, &grid, leaf);
         for octant in 0..orders {
-            let range = start + octant * tree.len()..start + (octant + 1) * tree.len();
+            let range = HEADER + octant * tree.len()..HEADER + (octant + 1) * tree.len();
             let slots = Slots {
                 nodes: &mut nodes[range.clone()],
                 bodies: &mut bodies[range],
             };
             thread(&tree, &encoded, octant, slots);
         }
-        Self { nodes, bodies }
+        let mut outside: Vec<_> = outside.iter().map(|item| item.body).collect();
+        outside.sort_unstable();
+        Self {
+            nodes,
+            bodies,
+            outside,
+        }
     }
 
     /// The grid of its boxes.
@@ -108,14 +109,9 @@ impl Tree {
         self.nodes[1][3] as usize + 1
     }
 
-    /// Number of bodies outside the tree.
-    pub fn outside(&self) -> usize {
-        self.nodes[2][0] as usize
-    }
-
     /// Entries of one order.
     pub fn order(&self, octant: usize) -> std::ops::Range<usize> {
-        let start = HEADER + self.outside() + octant * self.order_length();
+        let start = HEADER + octant * self.order_length();
         start..start + self.order_length()
     }
 
@@ -124,8 +120,8 @@ impl Tree {
 }
 
 /// As many orders as there is room for.
-fn orders(nodes: usize, outside: usize) -> usize {
-    let entries = HEADER + outside + 8 * nodes + 1;
+fn orders(nodes: usize) -> usize {
+    let entries = HEADER + 8 * nodes + 1;
     if entries * size_of::<Encoded>() <= MOST_BYTES {
         8
     } else {
@@ -133,7 +129,7 @@ fn orders(nodes: usize, outside: usize) -> usize {
     }
 }
 
-fn header(grid: &Grid, nodes: usize, orders: usize, outside: usize) -> Vec<Encoded> {
+fn header(grid: &Grid, nodes: usize, orders: usize) -> Vec<Encoded> {
     let words = |v: Vec3, last: u32| {
         let [x, y, z] = v.to_array().map(f32::to_bits);
         [x, y, z, last]
@@ -142,7 +138,7 @@ fn header(grid: &Grid, nodes: usize, orders: usize, outside: usize) -> Vec<Encod
     vec![
         words(grid.lower, nodes as u32),
         words(grid.cell, orders as u32 - 1),
-        [outside as u32, u32::MAX, half_diagonal.to_bits(), 0],
+        [half_diagonal.to_bits(), u32::MAX, 0, 0],
     ]
 }
 

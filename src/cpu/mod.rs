@@ -18,10 +18,9 @@ pub mod scene;
 pub mod sphere;
 pub mod trace;
 
-use crate::bvh::Tree;
 use crate::device::{Device, DeviceInfo, DeviceKind, runs};
 use crate::error::{Error, Result};
-use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally};
+use crate::pack::{Draw, Feature, Hierarchy, Packed, PointsJob, Rect, Strategy, Tally};
 use bvh::ByTree;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -32,7 +31,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 enum Bodies {
     Four(four::Bodies),
-    Tree(Arc<Tree>),
+    Tree(Arc<Hierarchy>),
 }
 
 /// The built-in CPU renderer; it uses all cores.
@@ -94,8 +93,8 @@ impl Device for Cpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
-        let bodies = match &scene.tree {
-            Some(tree) => Bodies::Tree(tree.clone()),
+        let bodies = match &scene.hierarchy {
+            Some(hierarchy) => Bodies::Tree(hierarchy.clone()),
             None => Bodies::Four(four::Bodies::new(scene)),
         };
         self.scene = Some((scene.clone(), bodies));
@@ -110,8 +109,8 @@ impl Device for Cpu {
                 let tracer = trace::Tracer::new(scene, four, &job);
                 pixels(rect).map(|pixel| traced_by_loops(&tracer, pixel)).collect()
             }
-            Bodies::Tree(tree) => {
-                let tree = ByTree { scene, tree };
+            Bodies::Tree(hierarchy) => {
+                let tree = ByTree { scene, hierarchy };
                 let tracer = trace::Tracer::new(scene, &tree, &job);
                 pixels(rect).map(|pixel| traced_by_tree(&tracer, pixel)).collect()
             }
@@ -126,7 +125,7 @@ impl Device for Cpu {
         let (scene, bodies) = self.scene()?;
         let feature = |pixel| match bodies {
             Bodies::Four(four) => feature_at(scene, four, pixel),
-            Bodies::Tree(tree) => feature_at(scene, &ByTree { scene, tree }, pixel),
+            Bodies::Tree(hierarchy) => feature_at(scene, &ByTree { scene, hierarchy }, pixel),
         };
         Ok(pixels(rect).map(feature).collect())
     }

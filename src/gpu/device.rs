@@ -9,7 +9,7 @@ use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::panics::catch;
-use crate::shader::{Kernel, SceneArrays};
+use crate::shader::{Kernel, SceneArray, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -92,7 +92,7 @@ impl Gpu {
             spheres: 1,
             boxes: 1,
             lamps: 1,
-            nodes: 0,
+            ..SceneArrays::default()
         };
         let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays.unwrap_or(none))?;
         let pipeline = Arc::new(pipeline);
@@ -204,7 +204,7 @@ impl Gpu {
             if tallies.iter().skip(pixel).step_by(area).all(|tally| tally.rays > 0) {
                 continue;
             }
-            if samples == 1 || self.scene()?.packed.tree.is_none() {
+            if samples == 1 || self.scene()?.packed.hierarchy.is_none() {
                 return Err(self.cut_short("a path took too many steps"));
             }
             let alone = rect.pixel(pixel);
@@ -272,6 +272,23 @@ fn padded<T: Pod + Zeroable>(items: &[T], length: usize) -> Vec<u8> {
     bytes
 }
 
+/// The bytes of one of a scene's arrays; `iterations` is what a lane may take of them.
+fn array_bytes(array: &SceneArray, scene: &Packed, iterations: u32) -> Vec<u8> {
+    let length = array.length;
+    let hierarchy = scene.hierarchy.as_deref();
+    match (array.name, hierarchy) {
+        ("material_at", _) => padded(&scene.materials, length),
+        ("sphere_at", _) => padded(&scene.spheres, length),
+        ("box_at", _) => padded(&scene.boxes, length),
+        ("lamp_at", _) => padded(&scene.lamps, length),
+        ("outside_sphere_at", Some(all)) => padded(&all.spheres, length),
+        ("outside_box_at", Some(all)) => padded(&all.boxes, length),
+        ("node_at", Some(all)) => counted(&all.tree, iterations),
+        ("node_body_at", Some(all)) => padded(&all.tree.bodies, length),
+        (name, _) => unreachable!("no array is called {name}"),
+    }
+}
+
 /// A tree's nodes, with the iterations that a lane may take among them.
 fn counted(tree: &Tree, iterations: u32) -> Vec<u8> {
     let mut nodes = tree.nodes.clone();
@@ -296,25 +313,16 @@ impl Device for Gpu {
             self.cut_short(&format!("{bodies} bodies are more than it goes through"))
         })?;
         let arrays = SceneArrays::new(scene);
-        let mut bytes = vec![
-            padded(&scene.materials, arrays.materials),
-            padded(&scene.spheres, arrays.spheres),
-            padded(&scene.boxes, arrays.boxes),
-            padded(&scene.lamps, arrays.lamps),
-        ];
-        if let Some(tree) = &scene.tree {
-            bytes.push(counted(tree, allowance.iterations));
-            bytes.push(padded(&tree.bodies, arrays.nodes));
-        }
         let guard = &self.guard;
-        let buffers = if arrays.is_uniform() {
-            vec![guard.filled(&bytes.concat(), wgpu::BufferUsages::UNIFORM)?]
-        } else {
-            let filled = bytes
-                .iter()
-                .map(|bytes| guard.filled(bytes, wgpu::BufferUsages::STORAGE));
-            filled.collect::<Result<_>>()?
-        };
+        let bytes = |array: &SceneArray| array_bytes(array, scene, allowance.iterations);
+        let uniform: Vec<u8> = arrays.uniform().iter().flat_map(bytes).collect();
+        let mut buffers = Vec::new();
+        if !uniform.is_empty() {
+            buffers.push(guard.filled(&uniform, wgpu::BufferUsages::UNIFORM)?);
+        }
+        for array in arrays.storage() {
+            buffers.push(guard.filled(&bytes(&array), wgpu::BufferUsages::STORAGE)?);
+        }
         self.loaded = Some(Loaded {
             packed: scene.clone(),
             allowance,

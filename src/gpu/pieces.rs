@@ -4,7 +4,6 @@
 //! whatever its paths do. In a tree they could visit every node, but never do: there each lane counts,
 //! and stops without a tally at its share of the iterations; what it left is traced again in smaller pieces.
 
-use crate::bvh::Tree;
 use crate::device::{DeviceKind, run_ranges};
 use crate::knobs::LightStrategy;
 use crate::pack::{Packed, RUN_LENGTH, Tally};
@@ -36,8 +35,8 @@ impl Allowance {
                 iterations: u32::MAX,
             });
         }
-        if let Some(tree) = &scene.tree {
-            return Self::in_tree(scene, tree);
+        if scene.hierarchy.is_some() {
+            return Self::in_tree(scene);
         }
         let steps = SOFTWARE_ITERATIONS / iterations(scene);
         let samples = (steps / (u64::from(scene.max_bounces) + 1)).max(1);
@@ -49,10 +48,10 @@ impl Allowance {
     }
 
     /// On a software driver, where lanes count their iterations.
-    fn in_tree(scene: &Packed, tree: &Tree) -> Option<Self> {
+    fn in_tree(scene: &Packed) -> Option<Self> {
         let lamps = scene.lamps.len() as u64;
-        // A lane that stops finishes its step: one more look at each lamp and at what is outside.
-        let last_step = lamps + tree.outside() as u64 + 8;
+        // A lane that stops finishes its step: one more look at each lamp.
+        let last_step = lamps + 64;
         let iterations = (SOFTWARE_ITERATIONS / LANES).checked_sub(last_step)?;
         Some(Self {
             steps: u32::MAX,
