@@ -48,6 +48,12 @@ struct Walk {
     end: u32,
 }
 
+// Iterations of the loops over what is outside, each with the last look at its condition.
+fn outside_loops() -> u32 {
+    return OUTSIDE_SPHERE_COUNT + OUTSIDE_BOX_COUNT + OUTSIDE_ROTATED_COUNT + 3u;
+}
+
+// Whether this lane has taken all the iterations that it may: what it found is not whole.
 fn cut_short() -> bool {
     return spent >= node_at(2u).y;
 }
@@ -189,12 +195,11 @@ fn nearest_outside(ray: Ray) -> Hit {
 }
 
 fn nearest_hit(ray: Ray) -> Hit {
-    spent += LAMP_COUNT + 24u;
+    spent += LAMP_COUNT + outside_loops() + 3u;
     var best = nearest_outside(ray);
     var walk = start_walk(ray);
     while walk.place < walk.end && !cut_short() {
         spent += 1u;
-        descend(&walk, best.distance);
         descend(&walk, best.distance);
         descend(&walk, best.distance);
         descend(&walk, best.distance);
@@ -230,7 +235,7 @@ fn blocked_outside(ray: Ray, reach: f32, target_body: u32) -> bool {
 
 // Whether anything but the body `target_body` stands nearer than `reach`.
 fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
-    spent += 24u;
+    spent += outside_loops() + 1u;
     var blocked = cut_short() || blocked_outside(ray, reach, target_body);
     if blocked {
         return true;
@@ -238,7 +243,6 @@ fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
     var walk = start_walk(ray);
     while walk.place < walk.end && !cut_short() {
         spent += 1u;
-        descend(&walk, reach);
         descend(&walk, reach);
         descend(&walk, reach);
         descend(&walk, reach);

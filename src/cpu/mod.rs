@@ -107,12 +107,16 @@ impl Device for Cpu {
         let by_pixel: Vec<Vec<Tally>> = match bodies {
             Bodies::Four(four) => {
                 let tracer = trace::Tracer::new(scene, four, &job);
-                pixels(rect).map(|pixel| traced_by_loops(&tracer, pixel)).collect()
+                pixels(rect)
+                    .map(|pixel| traced_by_loops(&tracer, pixel))
+                    .collect()
             }
             Bodies::Tree(hierarchy) => {
                 let tree = ByTree { scene, hierarchy };
                 let tracer = trace::Tracer::new(scene, &tree, &job);
-                pixels(rect).map(|pixel| traced_by_tree(&tracer, pixel)).collect()
+                pixels(rect)
+                    .map(|pixel| traced_by_tree(&tracer, pixel))
+                    .collect()
             }
         };
         let runs = runs(first_sample, samples) as usize;

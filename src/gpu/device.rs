@@ -201,7 +201,12 @@ impl Gpu {
         let area = rect.area();
         for pixel in 0..area {
             // Every sample takes a ray: a tally without one was never written.
-            if tallies.iter().skip(pixel).step_by(area).all(|tally| tally.rays > 0) {
+            if tallies
+                .iter()
+                .skip(pixel)
+                .step_by(area)
+                .all(|tally| tally.rays > 0)
+            {
                 continue;
             }
             if samples == 1 || self.scene()?.packed.hierarchy.is_none() {
@@ -308,7 +313,7 @@ impl Device for Gpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
-        let allowance = Allowance::new(self.info.kind, scene).ok_or_else(|| {
+        let allowance = Allowance::new(&self.info, scene).ok_or_else(|| {
             let bodies = scene.spheres.len() + scene.boxes.len();
             self.cut_short(&format!("{bodies} bodies are more than it goes through"))
         })?;

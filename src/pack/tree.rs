@@ -24,7 +24,10 @@ impl Hierarchy {
         let outside = || tree.outside.iter().map(|body| *body as usize - 1);
         let round = outside().filter_map(|index| spheres.get(index).copied());
         let place = |index: usize| index.checked_sub(spheres.len());
-        let rotated = outside().filter_map(place).filter(|place| *place >= straight).count();
+        let rotated = outside()
+            .filter_map(place)
+            .filter(|place| *place >= straight)
+            .count();
         let boxes = outside().filter_map(place).map(|place| boxes[place]);
         Self {
             spheres: round.collect(),

@@ -2,8 +2,8 @@
 
 use super::{Rendering, Task, whole};
 use crate::device::DeviceInfo;
-use crate::pack::Traversal;
 use crate::film::{Aov, Features, Film, Picture, Record, Seconds};
+use crate::pack::Traversal;
 
 /// Identifies a scene's text in records.
 pub fn scene_hash(text: &str) -> String {

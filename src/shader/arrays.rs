@@ -62,7 +62,11 @@ impl SceneArrays {
     pub fn new(packed: &Packed) -> Self {
         let lengths = |room: fn(usize) -> usize| {
             let (nodes, spheres, boxes) = match &packed.hierarchy {
-                Some(all) => (all.tree.nodes.len(), room(all.spheres.len()), room(all.boxes.len())),
+                Some(all) => (
+                    all.tree.nodes.len(),
+                    room(all.spheres.len()),
+                    room(all.boxes.len()),
+                ),
                 None => (0, 0, 0),
             };
             Self {
@@ -147,18 +151,27 @@ impl SceneArrays {
         let mut text = String::new();
         if !uniform.is_empty() {
             let member = |array: &SceneArray| {
-                let SceneArray { name, element, length, .. } = array;
+                let SceneArray {
+                    name,
+                    element,
+                    length,
+                    ..
+                } = array;
                 format!("    {name}_: array<{element}, {length}>,\n")
             };
             let members: String = uniform.iter().map(member).collect();
-            text += &format!("struct SceneData {{\n{members}}}\n@group(0) @binding(0) var<uniform> scene_data: SceneData;\n");
+            text += &format!(
+                "struct SceneData {{\n{members}}}\n@group(0) @binding(0) var<uniform> scene_data: SceneData;\n"
+            );
             let read = |array: &SceneArray| array.accessor(&format!("scene_data.{}_", array.name));
             text.extend(uniform.iter().map(read));
         }
         let first = usize::from(!uniform.is_empty());
         for (binding, array) in (first..).zip(&storage) {
             let SceneArray { name, element, .. } = array;
-            text += &format!("@group(0) @binding({binding}) var<storage, read> {name}_: array<{element}>;\n");
+            text += &format!(
+                "@group(0) @binding({binding}) var<storage, read> {name}_: array<{element}>;\n"
+            );
             text += &array.accessor(&format!("{name}_"));
         }
         text

@@ -4,8 +4,8 @@
 //! for one of several files that declare the same functions: [`Traversal`] says which.
 
 use super::library::LIBRARY;
-use crate::pack::Traversal;
 use crate::error::{Error, Result};
+use crate::pack::Traversal;
 
 const IMPORT: &str = "// #import ";
 const GENERATED: &str = "constants";
@@ -112,7 +112,13 @@ fn collect<'a>(
     }
     open.push(name);
     for import in text.lines().filter_map(|line| line.strip_prefix(IMPORT)) {
-        collect(file_of(import.trim(), traversal), library, traversal, open, order)?;
+        collect(
+            file_of(import.trim(), traversal),
+            library,
+            traversal,
+            open,
+            order,
+        )?;
     }
     open.pop();
     order.push((name, text));
