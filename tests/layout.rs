@@ -219,6 +219,16 @@ fn arrays(length: usize) -> SceneArrays {
     }
 }
 
+/// The same with a tree over the bodies.
+fn with_tree(length: usize) -> SceneArrays {
+    SceneArrays {
+        nodes: 2 * length,
+        outside_spheres: length.min(16),
+        outside_boxes: length.min(16),
+        ..arrays(length)
+    }
+}
+
 fn module(kernel: Kernel, arrays: SceneArrays) -> naga::Module {
     let joined = shader::source(kernel, arrays).unwrap();
     shader::parse(&joined).unwrap_or_else(|e| panic!("{e}"))
@@ -283,7 +293,7 @@ fn structs_are_laid_out_alike() {
     let rust = rust_layouts();
     let mut seen = BTreeSet::new();
     for &kernel in Kernel::ALL {
-        for arrays in [arrays(1), arrays(100_000)] {
+        for arrays in [arrays(1), arrays(100_000), with_tree(1), with_tree(100_000)] {
             let module = module(kernel, arrays);
             for (kind, stride) in bound_structs(&module) {
                 let name = kind.name.clone().unwrap();
@@ -309,7 +319,7 @@ fn packed_offsets(arrays: SceneArrays) -> Vec<(usize, usize)> {
         next += array.length * array.stride;
         (start, array.length)
     };
-    arrays.list().iter().map(place).collect()
+    arrays.uniform().iter().map(place).collect()
 }
 
 /// Offset and length of each array of the printed struct.
@@ -340,9 +350,17 @@ fn a_scene_in_one_buffer_lies_as_it_is_uploaded() {
             lamps,
             ..SceneArrays::default()
         };
-        for kernel in [Kernel::Trace, Kernel::Features] {
-            let printed = printed_offsets(&module(kernel, arrays));
-            assert_eq!(printed, packed_offsets(arrays), "{kernel} {lengths:?}");
+        let with_tree = SceneArrays {
+            nodes: 100,
+            outside_spheres: lamps,
+            outside_boxes: materials,
+            ..arrays
+        };
+        for arrays in [arrays, with_tree] {
+            for kernel in [Kernel::Trace, Kernel::Features] {
+                let printed = printed_offsets(&module(kernel, arrays));
+                assert_eq!(printed, packed_offsets(arrays), "{kernel} {lengths:?}");
+            }
         }
         let swapped = SceneArrays {
             boxes: boxes + 1,
@@ -483,7 +501,7 @@ fn bindings_match_the_tables() {
         ..arrays(2)
     };
     for &kernel in Kernel::ALL {
-        for arrays in [arrays(1), arrays(100_000), mixed] {
+        for arrays in [arrays(1), arrays(100_000), mixed, with_tree(1), with_tree(100_000)] {
             let shader = declared(&module(kernel, arrays));
             assert_eq!(shader, tabled(kernel, arrays), "{kernel} {arrays:?}");
         }
