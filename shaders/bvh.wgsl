@@ -30,6 +30,7 @@ const SLACK: f32 = 4e-6;
 // Iterations of this lane's loops so far. Mesa's software drivers leave every loop of an invocation
 // after 65,535 of them; the host says how many each lane may take.
 var<private> spent: u32;
+var<private> allowed: u32;
 
 // A ray among the nodes.
 struct Walk {
@@ -53,9 +54,13 @@ fn outside_loops() -> u32 {
     return OUTSIDE_SPHERE_COUNT + OUTSIDE_BOX_COUNT + OUTSIDE_ROTATED_COUNT + 3u;
 }
 
+fn allow(iterations: u32) {
+    allowed = iterations;
+}
+
 // Whether this lane has taken all the iterations that it may: what it found is not whole.
 fn cut_short() -> bool {
-    return spent >= node_at(2u).y;
+    return spent >= allowed;
 }
 
 // The leaf of the body that the ray starts on.

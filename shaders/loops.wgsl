@@ -50,8 +50,10 @@ fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
     return blocked;
 }
 
-// Whether a traversal was left before its end: these never are. The host sees to it that they need no
-// more iterations than a device allows.
+// How many iterations this lane may take: the host sees to it that these loops need no more.
+fn allow(iterations: u32) {}
+
+// Whether a traversal was left before its end: these never are.
 fn cut_short() -> bool {
     return false;
 }

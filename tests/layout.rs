@@ -158,7 +158,8 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
             layout!(FeatureJob {
                 camera,
                 corner,
-                size
+                size,
+                iterations
             }),
         ),
         (
@@ -379,8 +380,8 @@ struct Swapped {
     radius: f32,
     lamp: u32,
     material: u32,
+    body: u32,
     _pad0: u32,
-    _pad1: u32,
 }
 
 /// [`Sphere`] with a field of the right size and the wrong kind.
@@ -390,8 +391,8 @@ struct Retyped {
     radius: u32,
     material: u32,
     lamp: u32,
+    body: u32,
     _pad0: u32,
-    _pad1: u32,
 }
 
 /// [`Sphere`] without its padding.
@@ -401,6 +402,7 @@ struct Short {
     radius: f32,
     material: u32,
     lamp: u32,
+    body: u32,
 }
 
 #[test]
@@ -416,7 +418,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -425,7 +428,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -434,7 +438,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -443,7 +448,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -501,7 +507,13 @@ fn bindings_match_the_tables() {
         ..arrays(2)
     };
     for &kernel in Kernel::ALL {
-        for arrays in [arrays(1), arrays(100_000), mixed, with_tree(1), with_tree(100_000)] {
+        for arrays in [
+            arrays(1),
+            arrays(100_000),
+            mixed,
+            with_tree(1),
+            with_tree(100_000),
+        ] {
             let shader = declared(&module(kernel, arrays));
             assert_eq!(shader, tabled(kernel, arrays), "{kernel} {arrays:?}");
         }

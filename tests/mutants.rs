@@ -176,7 +176,10 @@ fn every_patched_shader_compiles() {
         ..arrays
     };
     for patch in patches() {
-        let by_tree = patch.files.iter().any(|file| file.path == "shaders/bvh.wgsl");
+        let by_tree = patch
+            .files
+            .iter()
+            .any(|file| file.path == "shaders/bvh.wgsl");
         let arrays = if by_tree { with_tree } else { arrays };
         let mut joined = shader::source(Kernel::Trace, arrays).unwrap();
         for file in &patch.files {

@@ -319,6 +319,9 @@ fn no_kernel_binds_more_than_devices_have() {
         };
         let storage = count(|space| matches!(space, naga::AddressSpace::Storage { .. }));
         let uniform = count(|space| *space == naga::AddressSpace::Uniform);
-        assert!(storage <= 8 && uniform <= 2, "{arrays:?}: {storage}, {uniform}");
+        assert!(
+            storage <= 8 && uniform <= 2,
+            "{arrays:?}: {storage}, {uniform}"
+        );
     }
 }

@@ -93,7 +93,9 @@ fn rooms() -> [Scene; 3] {
 fn balls(count: usize, material: &str) -> String {
     let ball = |i: usize| {
         let (x, z) = (0.3 * (i % 10) as f64 - 1.4, 0.2 * (i / 10) as f64 - 0.9);
-        format!("[[spheres]]\ncenter = [{x}, 0.06, {z}]\nradius = 0.05\nmaterial = \"{material}\"\n")
+        format!(
+            "[[spheres]]\ncenter = [{x}, 0.06, {z}]\nradius = 0.05\nmaterial = \"{material}\"\n"
+        )
     };
     (0..count).map(ball).collect()
 }

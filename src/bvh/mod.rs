@@ -5,7 +5,7 @@
 //! |---|---|
 //! | header 0 | where the grid starts, x, y, z (f32); nodes of one order |
 //! | header 1 | the grid's cell, x, y, z (f32); which bits of a ray's octant choose its order |
-//! | header 2 | half of the grid's diagonal (f32); most iterations of a lane; 0; 0 |
+//! | header 2 | half of the grid's diagonal (f32); 0; 0; 0 |
 //! | inner node | for x, y and z the grid lines around it, lower in the low half; bit 31 and the nodes of the subtree |
 //! | leaf, a sphere | its centre, x, y, z (f32); its radius (f32), whose bit 31 is clear |
 //! | leaf, a box | its index; 0; 0; bits 31 and 30 |
@@ -114,9 +114,6 @@ impl Tree {
         let start = HEADER + octant * self.order_length();
         start..start + self.order_length()
     }
-
-    /// Where the header holds the most iterations that a lane may take: entry and word.
-    pub const ITERATIONS: (usize, usize) = (2, 1);
 }
 
 /// As many orders as there is room for.
@@ -138,7 +135,7 @@ fn header(grid: &Grid, nodes: usize, orders: usize) -> Vec<Encoded> {
     vec![
         words(grid.lower, nodes as u32),
         words(grid.cell, orders as u32 - 1),
-        [half_diagonal.to_bits(), u32::MAX, 0, 0],
+        [half_diagonal.to_bits(), 0, 0, 0],
     ]
 }
 

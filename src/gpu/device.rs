@@ -4,7 +4,6 @@ use super::adapter::Adapters;
 use super::guard::Guard;
 use super::pieces::{Allowance, Gathered, pieces};
 use super::pipeline::Pipeline;
-use crate::bvh::Tree;
 use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
@@ -170,17 +169,11 @@ impl Gpu {
             .ok_or_else(|| Error::Internal("no scene is loaded".into()))
     }
 
-    /// Traces samples in one dispatch whose lanes take at most `steps` steps.
-    fn trace_piece(
-        &mut self,
-        rect: Rect,
-        first_sample: u64,
-        samples: u32,
-        steps: u32,
-    ) -> Result<Vec<Tally>> {
+    /// Traces samples in one dispatch. Lanes that take too many steps write no tallies.
+    fn trace_piece(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
         let loaded = self.scene()?;
         let mut job = loaded.packed.job(rect, first_sample, samples);
-        job.steps = job.steps.min(steps);
+        job.steps = loaded.allowance.steps(job.steps, rect);
         let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
         let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
         let count = rect.area() * runs(first_sample, samples) as usize;
@@ -188,9 +181,9 @@ impl Gpu {
         self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
     }
 
-    /// Traces again, in halves, what lanes left undone: pixels without tallies. Which those are depends on
-    /// their own samples alone, and a run is broken only where it is too long by itself, so that the
-    /// picture does not depend on how the work was split.
+    /// Traces again what lanes left undone, pixels without tallies: first each alone, where it may take
+    /// as many iterations as a group of lanes otherwise, then in halves. A run is broken only where it
+    /// is too long for a lane alone, so that the picture does not depend on how the work was split.
     fn mend(
         &mut self,
         rect: Rect,
@@ -201,20 +194,20 @@ impl Gpu {
         let area = rect.area();
         for pixel in 0..area {
             // Every sample takes a ray: a tally without one was never written.
-            if tallies
-                .iter()
-                .skip(pixel)
-                .step_by(area)
-                .all(|tally| tally.rays > 0)
-            {
+            let mut of_pixel = tallies.iter().skip(pixel).step_by(area);
+            if of_pixel.all(|tally| tally.rays > 0) {
                 continue;
             }
-            if samples == 1 || self.scene()?.packed.hierarchy.is_none() {
+            let alone = area == 1;
+            if self.scene()?.packed.hierarchy.is_none() || (alone && samples == 1) {
                 return Err(self.cut_short("a path took too many steps"));
             }
-            let alone = rect.pixel(pixel);
-            let half = samples.next_power_of_two() / 2;
-            let whole = self.trace_in_pieces(alone, first_sample, samples, half)?;
+            let most = if alone {
+                samples.next_power_of_two() / 2
+            } else {
+                1 << 31
+            };
+            let whole = self.trace_in_pieces(rect.pixel(pixel), first_sample, samples, most)?;
             for (run, tally) in whole.into_iter().enumerate() {
                 tallies[run * area + pixel] = tally;
             }
@@ -229,10 +222,9 @@ impl Gpu {
         samples: u32,
         most: u32,
     ) -> Result<Vec<Tally>> {
-        let steps = self.scene()?.allowance.steps;
         let mut gathered = Gathered::new(rect.area());
         for (first, count) in pieces(first_sample, samples, most) {
-            let tallies = self.trace_piece(rect, first, count, steps)?;
+            let tallies = self.trace_piece(rect, first, count)?;
             let tallies = self.mend(rect, first, count, tallies)?;
             gathered.add(first, count, &tallies);
         }
@@ -277,8 +269,8 @@ fn padded<T: Pod + Zeroable>(items: &[T], length: usize) -> Vec<u8> {
     bytes
 }
 
-/// The bytes of one of a scene's arrays; `iterations` is what a lane may take of them.
-fn array_bytes(array: &SceneArray, scene: &Packed, iterations: u32) -> Vec<u8> {
+/// The bytes of one of a scene's arrays.
+fn array_bytes(array: &SceneArray, scene: &Packed) -> Vec<u8> {
     let length = array.length;
     let hierarchy = scene.hierarchy.as_deref();
     match (array.name, hierarchy) {
@@ -288,18 +280,10 @@ fn array_bytes(array: &SceneArray, scene: &Packed, iterations: u32) -> Vec<u8> {
         ("lamp_at", _) => padded(&scene.lamps, length),
         ("outside_sphere_at", Some(all)) => padded(&all.spheres, length),
         ("outside_box_at", Some(all)) => padded(&all.boxes, length),
-        ("node_at", Some(all)) => counted(&all.tree, iterations),
+        ("node_at", Some(all)) => padded(&all.tree.nodes, length),
         ("node_body_at", Some(all)) => padded(&all.tree.bodies, length),
         (name, _) => unreachable!("no array is called {name}"),
     }
-}
-
-/// A tree's nodes, with the iterations that a lane may take among them.
-fn counted(tree: &Tree, iterations: u32) -> Vec<u8> {
-    let mut nodes = tree.nodes.clone();
-    let (entry, word) = Tree::ITERATIONS;
-    nodes[entry][word] = iterations;
-    bytemuck::cast_slice(&nodes).to_vec()
 }
 
 /// Groups of 8 x 8 lanes over a rectangle.
@@ -319,7 +303,7 @@ impl Device for Gpu {
         })?;
         let arrays = SceneArrays::new(scene);
         let guard = &self.guard;
-        let bytes = |array: &SceneArray| array_bytes(array, scene, allowance.iterations);
+        let bytes = |array: &SceneArray| array_bytes(array, scene);
         let uniform: Vec<u8> = arrays.uniform().iter().flat_map(bytes).collect();
         let mut buffers = Vec::new();
         if !uniform.is_empty() {
@@ -359,6 +343,8 @@ impl Device for Gpu {
             camera: loaded.packed.camera,
             corner: [rect.x0, rect.y0],
             size: [rect.width(), rect.height()],
+            iterations: loaded.allowance.iterations,
+            ..FeatureJob::default()
         };
         let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
         let pipeline = self.pipeline(Kernel::Features, &strategy, Some(arrays))?;

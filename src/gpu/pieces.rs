@@ -7,7 +7,7 @@
 
 use crate::device::{DeviceInfo, DeviceKind, run_ranges};
 use crate::knobs::LightStrategy;
-use crate::pack::{Packed, RUN_LENGTH, Tally};
+use crate::pack::{Packed, RUN_LENGTH, Rect, Tally};
 
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
@@ -32,8 +32,11 @@ pub struct Allowance {
     pub steps: u32,
     /// Samples: a power of two.
     pub samples: u32,
-    /// Iterations of a lane's loops where it counts them.
+    /// Whether lanes count the iterations of their loops.
+    counted: bool,
+    /// Iterations of a lane that counts them, and of one that is alone in its group.
     pub iterations: u32,
+    alone: u32,
 }
 
 impl Allowance {
@@ -43,7 +46,9 @@ impl Allowance {
             return Some(Self {
                 steps: u32::MAX,
                 samples: 1 << 31,
+                counted: scene.hierarchy.is_some(),
                 iterations: u32::MAX,
+                alone: u32::MAX,
             });
         }
         if scene.hierarchy.is_some() {
@@ -54,8 +59,19 @@ impl Allowance {
         (steps > 0).then_some(Self {
             steps: steps as u32,
             samples: 1 << samples.ilog2(),
+            counted: false,
             iterations: u32::MAX,
+            alone: u32::MAX,
         })
+    }
+
+    /// The steps, or iterations, of a lane whose samples take at most `steps` steps.
+    pub fn steps(&self, steps: u32, rect: Rect) -> u32 {
+        match (self.counted, rect.area()) {
+            (false, _) => steps.min(self.steps),
+            (true, 1) => self.alone,
+            (true, _) => self.iterations,
+        }
     }
 
     /// On a software driver, where lanes count their iterations.
@@ -73,7 +89,9 @@ impl Allowance {
         Some(Self {
             steps: u32::MAX,
             samples: 1 << samples.ilog2(),
+            counted: true,
             iterations: iterations as u32,
+            alone: (SOFTWARE_ITERATIONS - last_step) as u32,
         })
     }
 }

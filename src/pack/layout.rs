@@ -118,6 +118,8 @@ pub struct FeatureJob {
     pub camera: Camera,
     pub corner: [u32; 2],
     pub size: [u32; 2],
+    pub iterations: u32,
+    pub _pad0: [u32; 3],
 }
 
 /// `points.wgsl`: one dispatch.

@@ -56,7 +56,15 @@ fn cuboid(stream: &mut Stream, center: DVec3, size: f64, turned: bool) -> Cuboid
 
 /// Kinds of crowds.
 pub const KINDS: [&str; 9] = [
-    "soup", "flat", "line", "one centre", "twins", "far", "dust", "all sizes", "walls",
+    "soup",
+    "flat",
+    "line",
+    "one centre",
+    "twins",
+    "far",
+    "dust",
+    "all sizes",
+    "walls",
 ];
 
 /// The bodies of a crowd: spheres and boxes.

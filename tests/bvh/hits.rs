@@ -29,7 +29,11 @@ fn any_ray(scene: &Packed, stream: &mut Stream) -> Ray {
     let target = center(at.center) + vector(stream) * f64::from(at.radius) * edge;
     let along = (target - origin.as_dvec3()).normalize_or(DVec3::X);
     let axis = DVec3::AXES[stream.bits() as usize % 3];
-    let direction = if stream.bits().is_multiple_of(16) { axis } else { along };
+    let direction = if stream.bits().is_multiple_of(16) {
+        axis
+    } else {
+        along
+    };
     Ray {
         origin,
         direction: direction.as_vec3(),
@@ -49,7 +53,11 @@ fn follow(general: &Packed, tree: &Packed, first: Ray, stream: &mut Stream, coun
     for _ in 0..6 {
         let (hit, same) = (bodies.nearest_hit(&ray), by_tree.nearest_hit(&ray));
         let bits = |distance: f32| distance.to_bits();
-        assert_eq!((hit.body, bits(hit.distance)), (same.body, bits(same.distance)), "{ray:?}");
+        assert_eq!(
+            (hit.body, bits(hit.distance)),
+            (same.body, bits(same.distance)),
+            "{ray:?}"
+        );
         counts.rays += 1;
         counts.own += usize::from(hit.body != 0 && hit.body == ray.source);
         if hit.body == 0 {
@@ -63,12 +71,20 @@ fn follow(general: &Packed, tree: &Packed, first: Ray, stream: &mut Stream, coun
             (hit.distance.next_up(), hit.body),
         ] {
             let blocked = bodies.occluded(&ray, reach, target);
-            assert_eq!(blocked, by_tree.occluded(&ray, reach, target), "{ray:?} {reach}");
+            assert_eq!(
+                blocked,
+                by_tree.occluded(&ray, reach, target),
+                "{ray:?} {reach}"
+            );
             counts.blocked += usize::from(blocked);
         }
         let surface = surface_at(general, hit, &ray);
         let out = vector(stream).as_vec3();
-        let side = if out.dot(surface.normal) < 0.0 { -out } else { out };
+        let side = if out.dot(surface.normal) < 0.0 {
+            -out
+        } else {
+            out
+        };
         ray = Ray {
             origin: offset_origin(surface.point, surface.normal),
             direction: side,
@@ -90,11 +106,17 @@ fn both_kernels_find_the_same() {
                 follow(&general, &tree, first, &mut stream, &mut counts);
             }
             println!("{kind}, {count}: {counts:?}");
-            assert!(counts.hits > paths / 8 && counts.blocked > paths / 8, "{counts:?}");
+            assert!(
+                counts.hits > paths / 8 && counts.blocked > paths / 8,
+                "{counts:?}"
+            );
             own += counts.own;
         }
     }
-    assert!(own > 1000, "only {own} rays met the body they started inside of");
+    assert!(
+        own > 1000,
+        "only {own} rays met the body they started inside of"
+    );
 }
 
 /// The comparison can fail: a tree over bodies that have moved finds others.
@@ -106,7 +128,13 @@ fn a_tree_of_another_scene_is_seen() {
     let first: Vec<_> = (0..50).map(|_| any_ray(&general, &mut stream)).collect();
     let caught = std::panic::catch_unwind(move || {
         for ray in first {
-            follow(&general, &other, ray, &mut Stream::new(1), &mut Counts::default());
+            follow(
+                &general,
+                &other,
+                ray,
+                &mut Stream::new(1),
+                &mut Counts::default(),
+            );
         }
     });
     assert!(caught.is_err());

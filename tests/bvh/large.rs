@@ -89,7 +89,10 @@ fn every_node_may_be_looked_at() {
                 Err(error) => panic!("{bench:?}: {error}"),
             });
             // The last in the file is the smallest.
-            assert!(features.iter().all(|feature| feature.id == layers as u32), "{bench:?}");
+            assert!(
+                features.iter().all(|feature| feature.id == layers as u32),
+                "{bench:?}"
+            );
             assert!(tallies.iter().all(|tally| tally.rays == 16), "{bench:?}");
         }
     }
@@ -113,9 +116,17 @@ fn pieces_of_pieces_are_the_same_samples() {
     let together = gpu.trace(WHOLE, 0, 32).unwrap();
     for (run, first) in [(0, 0), (1, 16)] {
         let alone = gpu.trace(WHOLE, first, 16).unwrap();
-        assert_eq!(one(&together[run * WHOLE.area()..][..WHOLE.area()]), one(&alone));
+        assert_eq!(
+            one(&together[run * WHOLE.area()..][..WHOLE.area()]),
+            one(&alone)
+        );
     }
-    let corner = Rect { x0: 3, y0: 5, x1: 4, y1: 7, };
+    let corner = Rect {
+        x0: 3,
+        y0: 5,
+        x1: 4,
+        y1: 7,
+    };
     let pixels = gpu.trace(corner, 0, 16).unwrap();
     for (pixel, place) in pixels.iter().zip([5 * SIDE + 3, 6 * SIDE + 3]) {
         assert_eq!(*pixel, together[place as usize]);

@@ -15,7 +15,33 @@ fn rendering(device: &mut dyn Device, scene: &Scene) -> Rendering {
         features: true,
         ..Task::new(scene)
     };
-    render(device, &task, &mut |_| ControlFlow::Continue(())).unwrap_or_else(|error| panic!("{error}"))
+    render(device, &task, &mut |_| ControlFlow::Continue(()))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Every pixel of two films and of their first hits is the same, bit for bit.
+fn same(a: &Rendering, b: &Rendering, what: &str) {
+    let pixels = (0..a.film.sums.len()).filter(|&pixel| {
+        let of = |one: &Rendering| {
+            (
+                one.film.sums[pixel],
+                one.film.squares[pixel],
+                one.features.as_ref().unwrap()[pixel],
+            )
+        };
+        of(a) != of(b)
+    });
+    let unlike: Vec<_> = pixels
+        .map(|pixel| (pixel, a.film.sums[pixel], b.film.sums[pixel]))
+        .collect();
+    assert!(
+        unlike.is_empty(),
+        "{what}: {} pixels differ: {:?}",
+        unlike.len(),
+        &unlike[..unlike.len().min(4)]
+    );
+    assert_eq!(a.film.rays, b.film.rays, "{what}");
+    assert!(a.film == b.film, "{what}");
 }
 
 fn ids(features: &[Feature]) -> usize {
@@ -32,8 +58,7 @@ fn both_kernels_make_the_same_picture() {
         for kind in KINDS {
             let [general, tree] = crowd(kind, 150, 30);
             let pair = [general, tree].map(|scene| bench.with(|device| rendering(device, &scene)));
-            assert_eq!(pair[0].film, pair[1].film, "{bench:?}: {kind}");
-            assert_eq!(pair[0].features, pair[1].features, "{bench:?}: {kind}");
+            same(&pair[0], &pair[1], &format!("{bench:?}: {kind}"));
             seen += ids(pair[0].features.as_ref().unwrap());
         }
         assert!(seen > 60, "only {seen} bodies in sight");
@@ -45,14 +70,19 @@ fn the_ready_scenes_are_the_same_by_both_kernels() {
     for name in ["cornell", "three-balls", "montelight-complex"] {
         let path = format!("scenes/{name}.toml");
         let load = |kernel: &str| {
-            let sets = [format!("render.kernel={kernel}"), "image.width=16".into(), "image.height=16".into()];
+            let sets = [
+                format!("render.kernel={kernel}"),
+                "image.width=16".into(),
+                "image.height=16".into(),
+            ];
             let sets = sets.map(|set: String| lampray::scene::Assignment::parse(&set).unwrap());
             Scene::load(path.as_ref(), &sets).unwrap_or_else(|error| panic!("{error}"))
         };
         for bench in benches() {
-            let films = ["general", "bvh"].map(|kernel| bench.with(|device| rendering(device, &load(kernel)).film));
-            assert_eq!(films[0], films[1], "{bench:?}: {name}");
-            assert_eq!(films[0].region, whole(&load("auto")));
+            let pair = ["general", "bvh"]
+                .map(|kernel| bench.with(|device| rendering(device, &load(kernel))));
+            same(&pair[0], &pair[1], &format!("{bench:?}: {name}"));
+            assert_eq!(pair[0].film.region, whole(&load("auto")));
         }
     }
 }
@@ -61,7 +91,11 @@ fn the_ready_scenes_are_the_same_by_both_kernels() {
 fn the_scene_alone_chooses_the_kernel() {
     let of = |kernel: &str, bodies: usize| {
         let mut scene = empty(kernel);
-        let one = Sphere { center: glam::DVec3::ONE, radius: 1.0, material: 0 };
+        let one = Sphere {
+            center: glam::DVec3::ONE,
+            radius: 1.0,
+            material: 0,
+        };
         scene.spheres = vec![one; bodies];
         Traversal::of(&scene)
     };
@@ -69,7 +103,12 @@ fn the_scene_alone_chooses_the_kernel() {
         assert_eq!(of("general", bodies), Traversal::General);
         assert_eq!(of("bvh", bodies), Traversal::Bvh);
     }
-    assert_eq!((of("auto", 20), of("auto", 2000)), (Traversal::General, Traversal::Bvh));
-    let border = (20..2000).find(|bodies| of("auto", *bodies) == Traversal::Bvh).unwrap();
+    assert_eq!(
+        (of("auto", 20), of("auto", 2000)),
+        (Traversal::General, Traversal::Bvh)
+    );
+    let border = (20..2000)
+        .find(|bodies| of("auto", *bodies) == Traversal::Bvh)
+        .unwrap();
     assert_eq!(of("auto", border - 1), Traversal::General);
 }

@@ -20,7 +20,9 @@ fn extent(scene: &Packed, body: u32) -> (DVec3, DVec3) {
     let half = shape.half_size.map(f64::from);
     let center = Vec3::from(shape.center).as_dvec3();
     let corners = (0..8).map(|corner: u32| {
-        let signed = |axis: usize| axes[axis] * half[axis] * f64::from((corner >> axis & 1) * 2) - axes[axis] * half[axis];
+        let signed = |axis: usize| {
+            axes[axis] * half[axis] * f64::from((corner >> axis & 1) * 2) - axes[axis] * half[axis]
+        };
         center + signed(0) + signed(1) + signed(2)
     });
     let first = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -51,8 +53,12 @@ fn walk(scene: &Packed, tree: &Tree, octant: usize) -> (Vec<u32>, usize) {
         // The extent of a rotated box is rounded here too.
         let rounding = 1e-13 * (low.abs() + high.abs()).max_element();
         for (_, box_low, box_high) in &open {
-            let holds = low.cmpge(*box_low - rounding).all() && high.cmple(*box_high + rounding).all();
-            assert!(holds, "body {body}: {low} {high} outside {box_low} {box_high}");
+            let holds =
+                low.cmpge(*box_low - rounding).all() && high.cmple(*box_high + rounding).all();
+            assert!(
+                holds,
+                "body {body}: {low} {high} outside {box_low} {box_high}"
+            );
         }
         bodies.push(body);
     }
@@ -78,7 +84,10 @@ fn boxes_hold_all_that_is_below_them_in_every_order() {
                 bodies.sort_unstable();
                 let all = scene.spheres.len() + scene.boxes.len();
                 assert!(bodies.into_iter().eq(1..all as u32 + 1), "{kind} {count}");
-                assert!(count < 3000 || in_tree > 2000, "{kind}: {in_tree} in the tree");
+                assert!(
+                    count < 3000 || in_tree > 2000,
+                    "{kind}: {in_tree} in the tree"
+                );
             }
         }
     }
@@ -107,10 +116,17 @@ fn a_tree_that_is_wrong_is_caught() {
 fn grid_lines_never_cut_anything_off() {
     let mut stream = Stream::new(9);
     for round in 0..20_000 {
-        let center = Vec3::from_array(stream.direction().map(|x| (x * stream.scale(1e-3, 1e6)) as f32));
+        let center = Vec3::from_array(
+            stream
+                .direction()
+                .map(|x| (x * stream.scale(1e-3, 1e6)) as f32),
+        );
         let size = stream.scale(1e-6, 1e6);
         let reach = |stream: &mut Stream| DVec3::from_array([(); 3].map(|()| stream.unit() * size));
-        let hull = Bounds::around(center, reach(&mut stream) + f64::from(round % 2 == 0) * size);
+        let hull = Bounds::around(
+            center,
+            reach(&mut stream) + f64::from(round % 2 == 0) * size,
+        );
         let grid = Grid::over(&hull);
         let within = |stream: &mut Stream| {
             let at = std::array::from_fn(|axis| {
@@ -120,14 +136,26 @@ fn grid_lines_never_cut_anything_off() {
             Vec3::from_array(at).clamp(hull.lower, hull.upper)
         };
         let (a, b) = (within(&mut stream), within(&mut stream));
-        let inner = Bounds { lower: a.min(b), upper: a.max(b) };
+        let inner = Bounds {
+            lower: a.min(b),
+            upper: a.max(b),
+        };
         for bounds in [inner, hull] {
             let (low, high) = grid.decode(grid.enclose(&bounds));
-            assert!(low.cmple(bounds.lower.as_dvec3()).all(), "{bounds:?} {grid:?}");
-            assert!(high.cmpge(bounds.upper.as_dvec3()).all(), "{bounds:?} {grid:?}");
+            assert!(
+                low.cmple(bounds.lower.as_dvec3()).all(),
+                "{bounds:?} {grid:?}"
+            );
+            assert!(
+                high.cmpge(bounds.upper.as_dvec3()).all(),
+                "{bounds:?} {grid:?}"
+            );
             // And no more than a cell further out.
             let slack = 1.001 * grid.cell.as_dvec3() + 1e-12 * bounds.lower.as_dvec3().abs();
-            assert!((bounds.lower.as_dvec3() - low).cmple(slack).all(), "{bounds:?} {grid:?}");
+            assert!(
+                (bounds.lower.as_dvec3() - low).cmple(slack).all(),
+                "{bounds:?} {grid:?}"
+            );
         }
     }
 }
@@ -137,7 +165,8 @@ fn a_tree_does_not_depend_on_the_threads() {
     for kind in ["soup", "one centre", "all sizes"] {
         let trees = [1, 2, 5].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.unwrap().install(|| packed(kind, 30_000, 10)[1].hierarchy.clone().unwrap())
+            pool.unwrap()
+                .install(|| packed(kind, 30_000, 10)[1].hierarchy.clone().unwrap())
         });
         assert!(trees[0] == trees[1] && trees[0] == trees[2], "{kind}");
     }

@@ -85,7 +85,11 @@ fn before_lamp() -> Case {
         "[[spheres]]\ncenter = [0, {distance}, 0]\nradius = {radius}\nmaterial = \"lamp\"\n"
     );
     let whole = form_factor((radius / distance as f64).asin(), 0.0);
-    Case::new("balls before a lamp", scene(&(lamp + &balls)), truth(whole - shaded))
+    Case::new(
+        "balls before a lamp",
+        scene(&(lamp + &balls)),
+        truth(whole - shaded),
+    )
 }
 
 fn cases(bench: Bench) -> Vec<Case> {
@@ -122,7 +126,9 @@ fn the_gate_rejects_other_balls() {
     let mut family = Family::new("balls before a light, mutants", 31_500);
     for bench in benches() {
         for mut case in [before_sky(), before_lamp()] {
-            case = case.set("render.kernel", "bvh").set("light.strategy", "sample");
+            case = case
+                .set("render.kernel", "bvh")
+                .set("light.strategy", "sample");
             for ball in 0..8 {
                 case = case.set(&format!("spheres.{}.radius", 20 * ball + 30), "1e-6");
             }
