@@ -98,7 +98,7 @@ fn follow(general: &Packed, tree: &Packed, first: Ray, stream: &mut Stream, coun
 fn both_kernels_find_the_same() {
     let mut own = 0;
     for kind in KINDS {
-        for (count, paths) in [(3, 500), (17, 1000), (300, 4000)] {
+        for (count, paths) in [(3, 500), (17, 1000), (300, 2000)] {
             let [general, tree] = packed(kind, count, 20);
             let (mut stream, mut counts) = (Stream::new(21), Counts::default());
             for _ in 0..paths {

@@ -11,7 +11,7 @@ use lampray::device::Device;
 use lampray::pack::{Feature, Packed, Rect, Tally};
 use lampray::scene::{Scene, Sphere};
 
-const SIDE: u32 = 16;
+const SIDE: u32 = 8;
 const WHOLE: Rect = Rect {
     x0: 0,
     y0: 0,
@@ -21,7 +21,7 @@ const WHOLE: Rect = Rect {
 
 fn traced(device: &mut dyn Device, scene: &Packed) -> lampray::Result<(Vec<Tally>, Vec<Feature>)> {
     device.load(scene)?;
-    Ok((device.trace(WHOLE, 0, 16)?, device.features(WHOLE)?))
+    Ok((device.trace(WHOLE, 0, 4)?, device.features(WHOLE)?))
 }
 
 fn packed(mut scene: Scene) -> Packed {
@@ -50,14 +50,18 @@ fn a_million_bodies_are_traced() {
         .map(|bench| bench.with(|device| traced(device, &scene)).unwrap())
         .collect();
     let (tallies, features) = &both[0];
-    assert!(tallies.iter().all(|tally| tally.rays >= 16));
+    assert!(tallies.iter().all(|tally| tally.rays >= 4));
     assert!(features.iter().all(|feature| feature.id > 0));
     for (other, other_features) in &both[1..] {
         let pairs = features.iter().zip(other_features);
         let unlike = pairs.filter(|(a, b)| a.id != b.id).count();
         assert!(unlike <= 2, "{unlike} first hits differ");
-        let apart = mean(tallies) / mean(other) - 1.0;
-        assert!(apart.abs() < 0.05, "{apart}");
+        // Rounding takes paths apart at later hits, among so many bodies, but not all of them.
+        let near = |a: f32, b: f32| (a - b).abs() <= 1e-3 * a.abs();
+        let pairs = tallies.iter().zip(other);
+        let alike = pairs.filter(|(a, b)| a.rays == b.rays && near(a.mean[1], b.mean[1]));
+        let alike = alike.count();
+        assert!(2 * alike > tallies.len(), "only {alike} pixels are alike");
     }
 }
 
@@ -93,7 +97,7 @@ fn every_node_may_be_looked_at() {
                 features.iter().all(|feature| feature.id == layers as u32),
                 "{bench:?}"
             );
-            assert!(tallies.iter().all(|tally| tally.rays == 16), "{bench:?}");
+            assert!(tallies.iter().all(|tally| tally.rays == 4), "{bench:?}");
         }
     }
 }
@@ -107,7 +111,7 @@ fn pieces_of_pieces_are_the_same_samples() {
     };
     let mut scene = empty("bvh");
     scene.spheres = bodies("walls", 500, &mut Stream::new(41)).0;
-    for lamp in scene.spheres.iter_mut().take(24) {
+    for lamp in scene.spheres.iter_mut().take(12) {
         lamp.material = 2;
     }
     let scene = packed(scene);
@@ -131,7 +135,10 @@ fn pieces_of_pieces_are_the_same_samples() {
     for (pixel, place) in pixels.iter().zip([5 * SIDE + 3, 6 * SIDE + 3]) {
         assert_eq!(*pixel, together[place as usize]);
     }
-    let twin = Bench::Twin.with(|device| traced(device, &scene)).unwrap().0;
-    let apart = mean(&twin) / mean(&together) - 1.0;
+    let twin = Bench::Twin.with(|device| {
+        device.load(&scene)?;
+        device.trace(WHOLE, 0, 32)
+    });
+    let apart = mean(&twin.unwrap()) / mean(&together) - 1.0;
     assert!(apart.abs() < 0.1, "{apart}");
 }

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 
 fn rendering(device: &mut dyn Device, scene: &Scene) -> Rendering {
     let task = Task {
-        samples: 0..16,
+        samples: 0..4,
         features: true,
         ..Task::new(scene)
     };
