@@ -80,11 +80,11 @@ fn before_sky() -> Case {
 /// Before a lamp that stands behind them all: shadow rays too.
 fn before_lamp() -> Case {
     let (balls, shaded) = balls(0.82);
-    let (distance, radius) = (10.0, 7.0);
+    let (distance, radius) = (10.0_f64, 7.0);
     let lamp = format!(
         "[[spheres]]\ncenter = [0, {distance}, 0]\nradius = {radius}\nmaterial = \"lamp\"\n"
     );
-    let whole = form_factor((radius / distance as f64).asin(), 0.0);
+    let whole = form_factor((radius / distance).asin(), 0.0);
     Case::new(
         "balls before a lamp",
         scene(&(lamp + &balls)),
