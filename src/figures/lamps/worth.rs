@@ -93,16 +93,17 @@ impl Worth {
         let head = [
             "lamp",
             "region",
-            "bias as published",
-            "noise as published",
-            "noise corrected",
-            "samples at which bias equals noise",
-            "squared error, published over corrected",
+            "bias",
+            "noise",
+            "noise, corrected",
+            "samples to the bias",
+            "error ratio",
         ];
         Table {
             caption: format!(
-                "Case 2. Noise is the standard deviation of one sample over the mean. The last column is the mean squared error of a pixel at the \
-                 paper's {} samples: below 1 the published weight is nearer to the truth.",
+                "What the published weight costs and buys, case 2: its bias; its noise and that of the corrected weight (standard deviation of one \
+                 sample over the mean); the number of samples a pixel whose noise is as large as the bias; and the mean squared error of a pixel at \
+                 the paper's {} samples over that of the corrected weight, below 1 where the published one is nearer to the truth.",
                 self.samples
             ),
             head: head.map(String::from).to_vec(),
