@@ -89,11 +89,8 @@ pub fn reproduce(order: Order, open: &mut Open, hear: &mut Hear) -> Result<Outco
 fn note(order: Order, device: &DeviceInfo) -> Result<()> {
     let mut made = Made::read(order.folder)?;
     for number in order.figures {
-        let of = MadeFigure {
-            effort: order.effort,
-            device: device.clone(),
-        };
-        made.0.insert(*number, of);
+        made.0
+            .insert(*number, MadeFigure::new(order.effort, device.clone()));
     }
     made.write(order.folder)
 }

@@ -70,6 +70,14 @@ impl Command {
             return Err(Error::Runs(outcome.failed));
         }
         let data = Data::read(&self.output)?;
+        for number in &data.old {
+            remark(
+                &format!(
+                    "lampray: figure {number} was rendered by another version and is left out; without --only it is rendered again"
+                ),
+                output,
+            );
+        }
         let drawn = data
             .made
             .0

@@ -29,6 +29,31 @@ pub fn picture(pixels: &[[f32; 3]], size: [u32; 2], exposure: f64, note: String)
     }
 }
 
+/// Draws a frame just inside a part of a picture, light on dark and dark on light.
+pub fn outline(shown: &mut Shown, rect: Rect) {
+    let edge = |x: u32, y: u32| {
+        [
+            x == rect.x0,
+            x + 1 == rect.x1,
+            y == rect.y0,
+            y + 1 == rect.y1,
+        ]
+        .contains(&true)
+    };
+    for y in rect.y0..rect.y1 {
+        for x in (rect.x0..rect.x1).filter(|x| edge(*x, y)) {
+            let pixel = 3 * (y * shown.width + x) as usize;
+            let channels = &mut shown.rgb[pixel..pixel + 3];
+            let light = channels
+                .iter()
+                .map(|channel| u32::from(*channel))
+                .sum::<u32>()
+                / 3;
+            channels.fill(if light < 150 { 255 } else { 0 });
+        }
+    }
+}
+
 /// A block without rows.
 pub fn pictures(name: &str, caption: &str, columns: &[&str]) -> Pictures {
     Pictures {

@@ -5,6 +5,7 @@ use crate::analysis::{Against, Analysis, Group, Quantity};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use crate::place::Place;
+use crate::shader::library_hash;
 use crate::sweep::{Answer, Entry, Experiment, ReferenceRule};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -27,11 +28,32 @@ pub struct Made(pub BTreeMap<u32, MadeFigure>);
 pub struct MadeFigure {
     pub effort: Effort,
     pub device: DeviceInfo,
+    /// Version of lampray and hash of its shaders: others render other runs.
+    pub version: String,
+    pub shaders: String,
+}
+
+impl MadeFigure {
+    /// By this program.
+    pub fn new(effort: Effort, device: DeviceInfo) -> Self {
+        Self {
+            effort,
+            device,
+            version: env!("CARGO_PKG_VERSION").into(),
+            shaders: library_hash(),
+        }
+    }
+
+    fn is_of_this_program(&self) -> bool {
+        *self == Self::new(self.effort, self.device.clone())
+    }
 }
 
 /// Everything that the figures are made of.
 pub struct Data {
     pub made: Made,
+    /// Figures that another version of lampray rendered, and that are left out.
+    pub old: Vec<u32>,
     /// Points of the paper's cases on the unit sphere.
     pub points: [Vec<[f64; 3]>; 3],
     answers: Vec<(Study, Answer)>,
@@ -65,6 +87,14 @@ fn made_file(folder: &Path) -> PathBuf {
 }
 
 impl Made {
+    /// Numbers of figures that another version rendered, taken out.
+    pub fn without_old(&mut self) -> Vec<u32> {
+        let old = self.0.iter().filter(|(_, of)| !of.is_of_this_program());
+        let old: Vec<u32> = old.map(|(number, _)| *number).collect();
+        self.0.retain(|number, _| !old.contains(number));
+        old
+    }
+
     /// What a folder has; nothing where it is not there.
     ///
     /// # Errors
@@ -99,7 +129,14 @@ impl Data {
     /// [`Error::Usage`] where nothing was, [`Error::Input`] where a file is not there, [`Error::Data`] where
     /// it is not what it should be.
     pub fn read(folder: &Path) -> Result<Self> {
-        let made = Made::read(folder)?;
+        let mut made = Made::read(folder)?;
+        let old = made.without_old();
+        if let (true, [_, ..]) = (made.0.is_empty(), old.as_slice()) {
+            return Err(Error::Usage(format!(
+                "{}: another version of lampray rendered this; lampray figures renders it again",
+                folder.display()
+            )));
+        }
         if made.0.is_empty() {
             let path = made_file(folder);
             let source = std::io::Error::new(
@@ -126,6 +163,7 @@ impl Data {
         let [first, second, third] = CASES.map(read);
         Ok(Self {
             points: [first?, second?, third?],
+            old,
             made,
             answers,
         })

@@ -17,7 +17,8 @@ fn has_numbers(group: &BarGroup) -> bool {
 pub fn pictures(data: &Data) -> Result<Pictures> {
     let mut block = build::pictures(
         "rooms",
-        "The cases from left to right, and a reference of many samples. Below each picture its bias over the whole of it.",
+        "The cases from left to right, and a reference of many samples, with the regions outlined: ceiling, back wall, ball top, lit floor and \
+         penumbra, from top to bottom. Below each picture its bias over the whole of it.",
         &["case 1", "case 2", "case 3", "reference"],
     );
     for (room, lamp) in ROOMS {
@@ -36,7 +37,12 @@ pub fn pictures(data: &Data) -> Result<Pictures> {
             if let Some(reference) = reference.and_then(|index| question.references().get(index)) {
                 let picture = reference.picture();
                 let note = format!("{} samples", picture.record.samples);
-                cells.push(build::picture(&picture.mean, question.size(), 0.0, note));
+                let mut shown = build::picture(&picture.mean, question.size(), 0.0, note);
+                if preset == RULES[0].0 {
+                    let regions = question.regions().iter().skip(1);
+                    regions.for_each(|region| build::outline(&mut shown, region.rect));
+                }
+                cells.push(shown);
             }
             block.rows.push(PictureRow {
                 label: format!("{lamp}, {rules}"),
