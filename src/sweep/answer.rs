@@ -3,6 +3,7 @@
 use super::experiment::{Experiment, ReferenceOf, reference_file};
 use super::ledger::{Entry, Ledger, Status};
 use super::plan::Planned;
+use super::whole::image_file;
 use crate::analysis::{Analysis, Question, Reference, Runs};
 use crate::compare::verdict::Terms;
 use crate::error::{Error, Result};
@@ -283,8 +284,7 @@ fn collect(folder: &Path, entries: &[Entry], group: &Gathered, look: &mut Look) 
     let mut runs = Runs::new(&group.name, group.values.clone());
     for &number in &group.runs {
         let entry = &entries[number];
-        let file = format!("{}.exr", text(entry, "id"));
-        let picture = read_exr(folder.join("images").join(file))?;
+        let picture = read_exr(image_file(folder, text(entry, "id")))?;
         let seconds = entry.get("seconds").and_then(|all| all.get("render"));
         let seconds = seconds.and_then(Value::as_f64).unwrap_or(0.0);
         runs.add(&picture, seconds)?;

@@ -79,6 +79,11 @@ impl Ledger {
         self.finished.contains(id)
     }
 
+    /// Takes a run for one that is not finished, until a new line says that it is.
+    pub(super) fn forget(&mut self, id: &str) {
+        self.finished.remove(id);
+    }
+
     /// Reads the lines that have been added since.
     pub(super) fn refresh(&mut self) -> Result<()> {
         let (mut finished, mut broken) = (Vec::new(), 0);

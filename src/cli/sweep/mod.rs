@@ -102,6 +102,9 @@ impl Command {
             remark(&text, output);
         }
         let mut sweep = Sweep::new(&experiment, &self.output, rules)?;
+        for fault in sweep.damaged() {
+            remark(&format!("lampray: {fault}; the run is made again"), output);
+        }
         let (summary, references) = self.make(&mut sweep, device, &signals, output)?;
         sweep.write_table()?;
         let about = About {
