@@ -4,7 +4,7 @@ use super::attempt::{Attempt, persist};
 use super::entry::entry;
 use super::expected::PlannedReference;
 use super::experiment::{Experiment, reference_file};
-use super::ledger::{Entry, Ledger, Status};
+use super::ledger::{Entry, HASH, Ledger, Status};
 use super::plan::Planned;
 use super::progress::{Pace, Progress, Step};
 use super::summary::{ReferenceSummary, Rules, Summary};
@@ -17,6 +17,7 @@ use crate::place::Place;
 use rayon::prelude::*;
 use serde_json::{Map, Value};
 use std::fs;
+use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -52,6 +53,13 @@ impl<'a> Sweep<'a> {
     /// # Errors
     /// [`Error::Create`], or [`Error::Input`] for a ledger that cannot be read.
     pub fn new(experiment: &'a Experiment, folder: &Path, rules: Rules) -> Result<Self> {
+        if folder.is_file() {
+            let reason = "it is a file, and a sweep goes to a folder";
+            return Err(Error::Create {
+                path: folder.into(),
+                source: io::Error::new(io::ErrorKind::NotADirectory, reason),
+            });
+        }
         let images = folder.join("images");
         fs::create_dir_all(&images).map_err(|source| Error::Create {
             path: images,
@@ -169,7 +177,9 @@ impl<'a> Sweep<'a> {
                 (Outcome::Failed, entry)
             }
             Attempt::Ok(picture) => {
-                let record = self.write("images", &run.id, *picture)?;
+                let mut record = self.write("images", &run.id, *picture)?;
+                let hash = whole::hash(&whole::image_file(&self.folder, &run.id))?;
+                record.insert(HASH.into(), hash.into());
                 let entry = entry(run, &scene, Some(record), Status::Ok, None, attempts);
                 (Outcome::Made, entry)
             }
@@ -267,7 +277,12 @@ fn forget_damaged(ledger: &mut Ledger, folder: &Path, experiment: &Experiment) -
     let runs = experiment.plan.runs.par_iter();
     let finished = runs.filter(|run| ledger.knows(&run.id));
     let faults: Vec<(&str, Error)> = finished
-        .filter_map(|run| Some((run.id.as_str(), whole::check(folder, run).err()?)))
+        .filter_map(|run| {
+            Some((
+                run.id.as_str(),
+                whole::check(folder, run, ledger.hashes(&run.id)).err()?,
+            ))
+        })
         .collect();
     let mut told = Vec::new();
     for (id, error) in faults {
