@@ -14,7 +14,6 @@ use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::{Picture, Target, read_exr, read_record};
 use crate::place::Place;
-use rayon::prelude::*;
 use serde_json::{Map, Value};
 use std::fs;
 use std::io;
@@ -24,9 +23,11 @@ use std::path::{Path, PathBuf};
 /// What became of one run.
 enum Outcome {
     Made,
-    Failed,
-    /// It is in the ledger, by a line of another process.
+    /// Another process wrote it at the same time, and its line was first.
+    MadeTwice,
+    /// It was in the ledger by then, by a line of another process.
     ByAnother,
+    Failed,
     Stopped,
 }
 
@@ -66,7 +67,7 @@ impl<'a> Sweep<'a> {
             source,
         })?;
         let mut ledger = Ledger::open(folder)?;
-        let damaged = forget_damaged(&mut ledger, folder, experiment);
+        let damaged = whole::forget_damaged(&mut ledger, folder, experiment);
         let open = experiment.plan.runs.iter();
         let runs = open
             .filter(|run| !ledger.knows(&run.id))
@@ -139,14 +140,16 @@ impl<'a> Sweep<'a> {
                 summary.stopped = true;
                 break;
             }
-            match self.make(run, step, open, watch)? {
-                Outcome::Made => summary.made += 1,
+            let outcome = self.make(run, step, open, watch)?;
+            match outcome {
+                Outcome::Made | Outcome::MadeTwice => summary.made += 1,
+                Outcome::ByAnother => summary.skipped += 1,
                 Outcome::Failed => summary.failed += 1,
                 Outcome::Stopped => summary.stopped = true,
-                Outcome::ByAnother => {
-                    let is_finished = |place: usize| self.ledger.knows(&runs[place].id);
-                    summary.skipped += 1 + walk.leap(is_finished);
-                }
+            }
+            if matches!(outcome, Outcome::MadeTwice | Outcome::ByAnother) {
+                let is_finished = |place: usize| self.ledger.knows(&runs[place].id);
+                summary.skipped += walk.leap(is_finished);
             }
             self.pace.add(run.paths);
             if summary.stopped || (summary.failed > 0 && self.rules.fail_fast) {
@@ -185,7 +188,13 @@ impl<'a> Sweep<'a> {
             }
         };
         self.ledger.append(&entry)?;
-        Ok(outcome)
+        self.ledger.refresh()?;
+        let first = self.ledger.hashes(&run.id).first();
+        let own = entry.get(HASH).and_then(Value::as_str);
+        Ok(match (outcome, first) {
+            (Outcome::Made, Some(first)) if Some(first.as_str()) != own => Outcome::MadeTwice,
+            (outcome, _) => outcome,
+        })
     }
 
     /// Makes the references of the finished runs that are not there yet. One that cannot be made is a line of
@@ -269,30 +278,6 @@ impl<'a> Sweep<'a> {
             ))),
         }
     }
-}
-
-/// Reads all finished pictures, on all cores. Says what is wrong with those that do not pass, and takes their
-/// runs for open.
-fn forget_damaged(ledger: &mut Ledger, folder: &Path, experiment: &Experiment) -> Vec<String> {
-    let runs = experiment.plan.runs.par_iter();
-    let finished = runs.filter(|run| ledger.knows(&run.id));
-    let faults: Vec<(&str, Error)> = finished
-        .filter_map(|run| {
-            Some((
-                run.id.as_str(),
-                whole::check(folder, run, ledger.hashes(&run.id)).err()?,
-            ))
-        })
-        .collect();
-    let mut told = Vec::new();
-    for (id, error) in faults {
-        // Two points of a plan may be one run.
-        if ledger.knows(id) {
-            told.push(error.to_string());
-        }
-        ledger.forget(id);
-    }
-    told
 }
 
 /// Whether a reference has been made, as far as its head tells.

@@ -1,10 +1,13 @@
 //! Whether the picture of a finished run is still what the ledger says of it.
 
+use super::experiment::Experiment;
+use super::ledger::Ledger;
 use super::plan::Planned;
 use crate::error::{Error, Result};
 use crate::film::{Record, read_exr};
 use crate::render::scene_hash;
 use crate::scene::Scene;
+use rayon::prelude::*;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -13,6 +16,34 @@ use std::path::{Path, PathBuf};
 /// Where a folder keeps the picture of a run.
 pub(super) fn image_file(folder: &Path, id: &str) -> PathBuf {
     folder.join("images").join(format!("{id}.exr"))
+}
+
+/// Reads all finished pictures, on all cores. Says what is wrong with those that do not pass, and takes their
+/// runs for open.
+pub(super) fn forget_damaged(
+    ledger: &mut Ledger,
+    folder: &Path,
+    experiment: &Experiment,
+) -> Vec<String> {
+    let runs = experiment.plan.runs.par_iter();
+    let finished = runs.filter(|run| ledger.knows(&run.id));
+    let faults: Vec<(&str, Error)> = finished
+        .filter_map(|run| {
+            Some((
+                run.id.as_str(),
+                check(folder, run, ledger.hashes(&run.id)).err()?,
+            ))
+        })
+        .collect();
+    let mut told = Vec::new();
+    for (id, error) in faults {
+        // Two points of a plan may be one run.
+        if ledger.knows(id) {
+            told.push(error.to_string());
+        }
+        ledger.forget(id);
+    }
+    told
 }
 
 /// Whether a run's picture is one of those that the ledger has the hash of.
