@@ -35,16 +35,27 @@ pub enum Error {
     /// An output that broke off; the old file, if any, is untouched (exit 74).
     #[error("cannot write {}: {source}; the file that was there before, if any, is untouched", path.display())]
     Write { path: PathBuf, source: io::Error },
+    /// An output that broke off and is no file: a device, a pipe or standard output (exit 74).
+    #[error("cannot write to {}: {source}", path.display())]
+    Stream { path: PathBuf, source: io::Error },
     /// Runs of a sweep that failed; the ledger holds each with its reason (exit 75:
     /// the same command tries them again).
-    #[error("{0} runs failed: runs.jsonl says why; the same command tries them again")]
+    #[error("{} failed: runs.jsonl says why; the same command tries again", counted(*.0, "run"))]
     Runs(usize),
     /// References of a sweep that failed, with all runs done (exit 75).
-    #[error("{0} references failed: report.html says why; the same command tries them again")]
+    #[error("{} failed: report.html says why; the same command tries again", counted(*.0, "reference"))]
     References(usize),
     /// A fault of lampray itself (exit 70).
     #[error(
         "internal error: {0}. This is a fault of lampray: please report it with the command and the scene"
     )]
     Internal(String),
+}
+
+/// 1 run, 2 runs.
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
+    }
 }

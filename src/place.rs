@@ -88,18 +88,18 @@ impl Place {
     /// Lets `fill` write the file.
     ///
     /// # Errors
-    /// [`Error::Write`]; a file that was there before is as it was then.
+    /// [`Error::Write`], and a file that was there before is as it was then; [`Error::Stream`] for what is none.
     pub fn write(self, fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>) -> Result<()> {
         let Self {
             path,
             destination,
             temporary,
         } = self;
-        let written = match temporary {
-            Some(temporary) => write_file(temporary, &destination, fill),
-            None => write_stream(&path, fill),
-        };
-        written.map_err(|source| Error::Write { path, source })
+        match temporary {
+            Some(temporary) => write_file(temporary, &destination, fill)
+                .map_err(|source| Error::Write { path, source }),
+            None => write_stream(&path, fill).map_err(|source| Error::Stream { path, source }),
+        }
     }
 }
 

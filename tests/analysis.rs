@@ -7,6 +7,7 @@ mod support;
 
 mod analysis {
     mod coverage;
+    mod effects;
     mod figures;
     mod hand;
     mod mutants;

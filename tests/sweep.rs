@@ -7,4 +7,5 @@ mod sweep {
     mod expected;
     mod references;
     mod runs;
+    mod told;
 }

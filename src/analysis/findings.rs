@@ -1,5 +1,5 @@
 //! What the data say, in sentences, most important first: whether they can be trusted, which groups are
-//! biased, which is best for its time, and where more samples stop helping.
+//! biased, what changes the noise, which is best for its time, and where more samples stop helping.
 
 use super::group::Group;
 use super::quantity::Quantity;
@@ -17,6 +17,7 @@ impl Analysis {
             self.disagreements(),
             self.biased(),
             self.unbiased(),
+            self.changes(),
             self.best(),
             self.crossings(),
         ];
@@ -185,24 +186,46 @@ impl Analysis {
         }
     }
 
-    /// Where bias overtakes noise, the fewest samples first.
+    /// Where bias overtakes noise, the fewest samples first, and of many only the first.
     fn crossings(&self) -> Vec<String> {
         let mut found = Vec::new();
         for (group, regions) in self.groups.iter().zip(&self.against) {
             for (region, against) in self.question.regions.iter().zip(regions) {
                 if let Some(crossing) = against.crossing {
-                    let at = ranged(crossing);
-                    let sentence = format!(
-                        "{}, {}: bias overtakes noise at {at} samples a pixel.",
-                        group.name, region.name
-                    );
+                    let what = match crossing.value < 1.0 {
+                        true => "bias is larger than the noise of a single sample".into(),
+                        false => format!(
+                            "bias overtakes noise at {} samples a pixel",
+                            ranged(crossing)
+                        ),
+                    };
+                    let sentence = format!("{}, {}: {what}.", group.name, region.name);
                     found.push((crossing.value, sentence));
                 }
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found.into_iter().map(|(_, sentence)| sentence).collect()
+        let sentences = found.into_iter().map(|(_, sentence)| sentence).collect();
+        first_of(sentences, |more| {
+            format!(
+                "Bias overtakes noise in {more} more of these places: the table has the samples of each."
+            )
+        })
     }
+}
+
+/// Sentences of a kind that are said.
+const MOST: usize = 4;
+
+/// The most important of the sentences, and how many more there are.
+pub(super) fn first_of(
+    mut sentences: Vec<String>,
+    more: impl FnOnce(usize) -> String,
+) -> Vec<String> {
+    let left = sentences.len().saturating_sub(MOST);
+    sentences.truncate(MOST);
+    sentences.extend((left > 0).then(|| more(left)));
+    sentences
 }
 
 /// Whether its interval leaves 0 out.

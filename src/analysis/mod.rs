@@ -27,6 +27,7 @@
 //! | relMSE | the same, over r^2 + 0.01 | the same |
 //! | N* | v / bias^2 | delta method on its logarithm |
 //! | efficiency | 1 / (MSE x seconds) | delta method on its logarithm |
+//! | an axis's value over its first: variance, time of one sample | geometric mean over pairs of groups, see [`Effect`] | delta method on its logarithm |
 //! | equal time, equal error | see [`equal_time`], [`equal_error`] | delta method on their logarithms |
 //!
 //! An unbiased estimate of bias^2 is below 0 about every other time where there is no bias; it stays so
@@ -56,6 +57,8 @@
 
 mod agreement;
 mod cell;
+mod changes;
+mod effects;
 mod energy;
 mod fill;
 mod findings;
@@ -70,6 +73,7 @@ mod runs;
 mod sweep;
 pub(crate) mod words;
 
+pub use effects::Effect;
 pub use energy::Energy;
 pub use group::{Group, Maps, RegionFigures};
 pub use images::{Kind, image, picture_image};

@@ -127,7 +127,7 @@ pub(crate) fn print(text: &str) -> Result<()> {
         .write_all(text.as_bytes())
         .and_then(|()| stdout.flush());
     match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Write {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Stream {
             path: "standard output".into(),
             source: error,
         }),
@@ -149,7 +149,7 @@ fn code(error: &Error) -> u8 {
         Error::Device(_) => 69,
         Error::Internal(_) => INTERNAL,
         Error::Create { .. } => 73,
-        Error::Write { .. } => 74,
+        Error::Write { .. } | Error::Stream { .. } => 74,
         Error::DeviceLost(_) | Error::Runs(_) | Error::References(_) => 75,
     }
 }

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::pack::Rect;
 use crate::render::{self, Chosen};
 use crate::scene::{Assignment, Scene};
+use crate::sweep::Axis;
 use clap::{Args, ValueEnum};
 use std::ops::Range;
 use std::path::Path;
@@ -61,6 +62,14 @@ impl KnobOptions {
 
 impl ShortKnobs {
     pub(crate) fn assignments(&self) -> Vec<Assignment> {
+        let assignment = |[path, flag, value]: [&str; 3]| {
+            Assignment::new(path, value, format!("{flag} {value}"))
+        };
+        self.given().map(assignment).collect()
+    }
+
+    /// Path, flag and value of those that are given.
+    fn given(&self) -> impl Iterator<Item = [&str; 3]> {
         let short = [
             ("image.width", "--width", &self.width),
             ("image.height", "--height", &self.height),
@@ -69,11 +78,22 @@ impl ShortKnobs {
             ("render.max_bounces", "--max-bounces", &self.max_bounces),
             ("render.preset", "--preset", &self.preset),
         ];
-        let given = short.into_iter().filter_map(|(path, flag, value)| {
-            let value = value.as_ref()?;
-            Some(Assignment::new(path, value, format!("{flag} {value}")))
-        });
-        given.collect()
+        let given = short.into_iter();
+        given.filter_map(|(path, flag, value)| Some([path, flag, value.as_deref()?]))
+    }
+
+    /// Refuses a knob that is swept, too: one of the two would be passed over.
+    ///
+    /// # Errors
+    /// [`Error::Usage`].
+    pub(crate) fn refuse_swept(&self, axes: &[Axis]) -> Result<()> {
+        let is_swept = |path: &str| axes.iter().any(|axis| axis.path == path);
+        match self.given().find(|[path, ..]| is_swept(path)) {
+            None => Ok(()),
+            Some([path, flag, _]) => Err(Error::Usage(format!(
+                "{path} is swept, and {flag} sets it: one of the two"
+            ))),
+        }
     }
 }
 

@@ -1,8 +1,11 @@
 //! A sweep's folder read back: what its ledger and its pictures say. Nothing is rendered here.
 
 use super::experiment::{Experiment, ReferenceOf, reference_file};
+use super::grid::Grid;
 use super::ledger::{Entry, Ledger, Status};
 use super::plan::Planned;
+use super::whole::image_file;
+use crate::analysis::words::plain;
 use crate::analysis::{Analysis, Question, Reference, Runs};
 use crate::compare::verdict::Terms;
 use crate::error::{Error, Result};
@@ -56,7 +59,7 @@ impl Answer {
             ..Self::default()
         };
         let references = References::read(folder, experiment, &mut answer)?;
-        let mut groups = gather(&answer.entries);
+        let mut groups = gather(&answer.entries, &experiment.grid);
         for group in &mut groups {
             let first = group.runs.first().map(|run| &answer.entries[*run]);
             group.reference = first.and_then(|entry| references.of(text(entry, "id")));
@@ -240,7 +243,8 @@ struct Gathered {
 }
 
 /// Says which runs belong together.
-fn gather(entries: &[Entry]) -> Vec<Gathered> {
+fn gather(entries: &[Entry], grid: &Grid) -> Vec<Gathered> {
+    let telling: Vec<&str> = grid.telling().map(|axis| axis.path.as_str()).collect();
     let mut groups: Vec<Gathered> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     for (number, entry) in entries.iter().enumerate() {
@@ -250,7 +254,7 @@ fn gather(entries: &[Entry]) -> Vec<Gathered> {
         let key = Value::Object(shared.clone()).to_string();
         let place = *places.entry(key).or_insert_with(|| {
             groups.push(Gathered {
-                name: name(&shared),
+                name: name(&shared, &telling),
                 values: shared,
                 runs: Vec::new(),
                 reference: None,
@@ -264,17 +268,14 @@ fn gather(entries: &[Entry]) -> Vec<Gathered> {
     groups
 }
 
-/// `cone, 16`: the values, for a reader who knows the axes.
-fn name(values: &Map<String, Value>) -> String {
-    let plain = |value: &Value| match value {
-        Value::String(text) => text.clone(),
-        value => value.to_string(),
-    };
-    let all: Vec<String> = values.values().map(plain).collect();
-    if all.is_empty() {
-        "all runs".into()
-    } else {
-        all.join(", ")
+/// `cone, 16`: the values of the axes that tell groups apart, for a reader who knows the axes.
+fn name(values: &Map<String, Value>, telling: &[&str]) -> String {
+    let values = values.iter();
+    let told = values.filter(|(path, _)| telling.contains(&path.as_str()));
+    let all: Vec<String> = told.map(|(_, value)| plain(value)).collect();
+    match all.is_empty() {
+        true => "all runs".into(),
+        false => all.join(", "),
     }
 }
 
@@ -283,8 +284,7 @@ fn collect(folder: &Path, entries: &[Entry], group: &Gathered, look: &mut Look) 
     let mut runs = Runs::new(&group.name, group.values.clone());
     for &number in &group.runs {
         let entry = &entries[number];
-        let file = format!("{}.exr", text(entry, "id"));
-        let picture = read_exr(folder.join("images").join(file))?;
+        let picture = read_exr(image_file(folder, text(entry, "id")))?;
         let seconds = entry.get("seconds").and_then(|all| all.get("render"));
         let seconds = seconds.and_then(Value::as_f64).unwrap_or(0.0);
         runs.add(&picture, seconds)?;

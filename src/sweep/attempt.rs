@@ -1,7 +1,8 @@
 //! One render, of a run or of a reference, on a device that may be lost on the way.
 
 use super::ledger::Status;
-use super::run::{Open, Rules};
+use super::run::Open;
+use super::summary::Rules;
 use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::Picture;

@@ -6,6 +6,7 @@
 
 use super::grid::Point;
 use super::plan::{Base, Plan, Planned, id};
+use crate::analysis::words::plain_text;
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use crate::knobs::{KNOBS, Knob, Preset};
@@ -244,7 +245,7 @@ fn name(all: &mut [Expected], plan: &Plan) {
     for (number, (expected, values)) in all.iter_mut().zip(&values).enumerate() {
         let parts = telling.iter().map(|axis| {
             let (path, _) = &plan.runs[expected.runs[0]].point.values[*axis];
-            let values: Vec<_> = values[*axis].iter().copied().collect();
+            let values: Vec<_> = values[*axis].iter().map(|text| plain_text(text)).collect();
             format!("{path} {}", values.join(" or "))
         });
         let name = parts.collect::<Vec<_>>().join(", ");

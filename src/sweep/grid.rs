@@ -47,6 +47,14 @@ impl Grid {
         runs.filter(|runs| *runs <= MOST_RUNS).ok_or_else(too_many)
     }
 
+    /// The axes that have several values; all of them where none has.
+    pub fn telling(&self) -> impl Iterator<Item = &Axis> {
+        let several = |axis: &&Axis| axis.values.len() > 1;
+        let any = self.axes.iter().any(|axis| several(&axis));
+        let axes = self.axes.iter();
+        axes.filter(move |axis| !any || several(axis))
+    }
+
     fn repeats(&self) -> u64 {
         self.seeds.max(1)
     }
@@ -174,6 +182,22 @@ mod tests {
         };
         assert_eq!(words(&grid), ["1 x#0", "2 y#0", "3 z#0"]);
         assert_eq!(words(&Grid::default()), ["#0"]);
+    }
+
+    #[test]
+    fn axes_of_one_value_tell_nothing_unless_all_are() {
+        let telling = |axes: &[&str]| {
+            let axes = axes.iter().map(|text| axis(text)).collect();
+            let grid = Grid {
+                axes,
+                ..Grid::default()
+            };
+            let told = grid.telling().map(|axis| axis.path.clone());
+            told.collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(telling(&["a=1", "b=1,2", "c=x", "d=3,4"]), "b d");
+        assert_eq!(telling(&["a=1", "c=x"]), "a c");
+        assert_eq!(telling(&[]), "");
     }
 
     #[test]

@@ -5,13 +5,16 @@
 
 use crate::error::{Error, Result};
 use serde_json::{Map, Value};
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// The longest line that is read.
 const LONGEST: u64 = 64 << 20;
+
+/// What an entry calls the BLAKE3 hash of its EXR's bytes.
+pub(super) const HASH: &str = "exr_hash";
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +43,8 @@ pub type Entry = Map<String, Value>;
 #[derive(Debug)]
 pub struct Ledger {
     path: PathBuf,
-    finished: HashSet<String>,
+    /// By id, with the hash of every picture that has been written for it.
+    finished: HashMap<String, Vec<String>>,
     /// Lines that are no entries: cut short by a kill.
     pub broken: usize,
     /// Where reading goes on: other processes may add lines.
@@ -55,7 +59,7 @@ impl Ledger {
     pub fn open(folder: &Path) -> Result<Self> {
         let mut ledger = Self {
             path: folder.join("runs.jsonl"),
-            finished: HashSet::new(),
+            finished: HashMap::new(),
             broken: 0,
             read_to: 0,
         };
@@ -68,15 +72,26 @@ impl Ledger {
     /// # Errors
     /// As [`Ledger::open`].
     pub fn has(&mut self, id: &str) -> Result<bool> {
-        if !self.finished.contains(id) {
+        if !self.finished.contains_key(id) {
             self.refresh()?;
         }
-        Ok(self.finished.contains(id))
+        Ok(self.finished.contains_key(id))
     }
 
     /// As [`Ledger::has`], by what has been read so far.
     pub fn knows(&self, id: &str) -> bool {
-        self.finished.contains(id)
+        self.finished.contains_key(id)
+    }
+
+    /// Hashes of the pictures of a finished run: more than one where two processes made it at once, none by a
+    /// line of an earlier version.
+    pub(super) fn hashes(&self, id: &str) -> &[String] {
+        self.finished.get(id).map_or(&[], Vec::as_slice)
+    }
+
+    /// Takes a run for one that is not finished, until a new line says that it is.
+    pub(super) fn forget(&mut self, id: &str) {
+        self.finished.remove(id);
     }
 
     /// Reads the lines that have been added since.
@@ -86,12 +101,15 @@ impl Ledger {
             Some(entry)
                 if entry.get("status").and_then(Value::as_str) == Some(Status::Ok.name()) =>
             {
-                finished.extend(entry.get("id").and_then(Value::as_str).map(String::from));
+                let text = |key: &str| entry.get(key).and_then(Value::as_str).map(String::from);
+                finished.extend(text("id").map(|id| (id, text(HASH))));
             }
             Some(_) => {}
             None => broken += 1,
         })?;
-        self.finished.extend(finished);
+        for (id, hash) in finished {
+            self.finished.entry(id).or_default().extend(hash);
+        }
         self.broken += broken;
         Ok(())
     }

@@ -27,12 +27,14 @@
 //! }
 //! ```
 //!
-//! A run's id is a hash of all that decides its pixels, so that a run that is in the ledger as
-//! finished never has to be made again: a sweep that was stopped goes on where it was.
+//! A run's id is a hash of all that decides its pixels, so that a run that is in the ledger as finished,
+//! and whose picture reads back whole, never has to be made again: a sweep that was stopped goes on where it
+//! was.
 
 mod answer;
 mod attempt;
 mod axis;
+mod entry;
 mod expected;
 mod experiment;
 mod grid;
@@ -41,7 +43,10 @@ mod plan;
 mod progress;
 mod report;
 mod run;
+mod summary;
 mod table;
+mod walk;
+mod whole;
 
 pub use answer::{Answer, Look};
 pub use axis::{Axis, MOST_RUNS};
@@ -52,5 +57,6 @@ pub use ledger::{Entry, Ledger, Status};
 pub use plan::{Base, Plan, Planned};
 pub use progress::{Progress, Step};
 pub use report::{About, report_data};
-pub use run::{Open, ReferenceSummary, Rules, Summary, Sweep, Watch};
+pub use run::{Open, Sweep, Watch};
+pub use summary::{ReferenceSummary, Rules, Summary};
 pub use table::table;

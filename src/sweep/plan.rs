@@ -1,13 +1,12 @@
 //! From a grid to the runs that a device is to make, in the order in which it makes them.
 
 use super::grid::{Grid, Point};
+use super::whole::Inputs;
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use crate::pack::{Packed, Strategy};
-use crate::render::scene_hash;
 use crate::scene::{Assignment, Scene};
-use serde_json::json;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 /// What all runs share.
 #[derive(Clone, Debug)]
@@ -117,16 +116,7 @@ impl Plan {
     }
 }
 
-/// Hash of a run's inputs: scene, every knob, shaders, version and the kind of device.
+/// Hash of a run's inputs: scene, every knob, shaders, version and device.
 pub(super) fn id(scene: &Scene, device: &DeviceInfo) -> String {
-    // Sorted: the order in which knobs were given says nothing.
-    let knobs: BTreeMap<_, _> = scene.knobs.iter().collect();
-    let inputs = json!({
-        "scene": scene_hash(&scene.source.text),
-        "knobs": knobs,
-        "shaders": crate::shader::library_hash(),
-        "version": env!("CARGO_PKG_VERSION"),
-        "device": [device.name, device.driver, device.backend],
-    });
-    blake3::hash(inputs.to_string().as_bytes()).to_hex()[..20].into()
+    Inputs::of_scene(scene, device).id()
 }

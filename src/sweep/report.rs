@@ -82,9 +82,10 @@ fn show(shown: Vec<(usize, ImageData)>, answer: &Answer, data: &mut ReportData) 
 }
 
 fn question(grid: &Grid) -> String {
-    let paths: Vec<&str> = grid.axes.iter().map(|axis| axis.path.as_str()).collect();
+    let paths: Vec<&str> = grid.telling().map(|axis| axis.path.as_str()).collect();
     match paths.as_slice() {
         [] => "How much does the seed change?".into(),
+        [path] => format!("What does {path} change?"),
         paths => format!("What do {} change?", paths.join(" and ")),
     }
 }

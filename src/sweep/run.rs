@@ -1,53 +1,34 @@
 //! Making the runs of an experiment and their references, one after another, on one device.
 
 use super::attempt::{Attempt, persist};
+use super::entry::entry;
 use super::expected::PlannedReference;
 use super::experiment::{Experiment, reference_file};
-use super::ledger::{Entry, Ledger, Status};
+use super::ledger::{Entry, HASH, Ledger, Status};
 use super::plan::Planned;
 use super::progress::{Pace, Progress, Step};
+use super::summary::{ReferenceSummary, Rules, Summary};
+use super::walk::Walk;
+use super::whole;
 use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::{Picture, Target, read_exr, read_record};
 use crate::place::Place;
-use crate::scene::Scene;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use std::fs;
+use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
-/// What is done about runs that fail.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Rules {
-    /// Stop at the first.
-    pub fail_fast: bool,
-    /// Try each so many times more; references, too.
-    pub retries: u32,
-    /// Give a run up after so long; a reference has its time.
-    pub timeout: Option<Duration>,
-}
-
-/// How a sweep ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Summary {
-    /// Runs made now, runs that were there already, and runs that failed.
-    pub made: usize,
-    pub skipped: usize,
-    pub failed: usize,
-    /// Whether it was stopped before its end.
-    pub stopped: bool,
-}
-
-/// What became of the references.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ReferenceSummary {
-    pub made: usize,
-    /// Those that were there already.
-    pub found: usize,
-    /// Name and reason of each that could not be made.
-    pub failed: Vec<(String, String)>,
-    pub stopped: bool,
+/// What became of one run.
+enum Outcome {
+    Made,
+    /// Another process wrote it at the same time, and its line was first.
+    MadeTwice,
+    /// It was in the ledger by then, by a line of another process.
+    ByAnother,
+    Failed,
+    Stopped,
 }
 
 /// Gets a device, at the start and after one was lost.
@@ -63,20 +44,30 @@ pub struct Sweep<'a> {
     rules: Rules,
     device: Option<Box<dyn Device>>,
     pace: Pace,
+    damaged: Vec<String>,
 }
 
 impl<'a> Sweep<'a> {
-    /// Makes the folder where it is not there.
+    /// Makes the folder where it is not there, and reads the picture of every run that is finished: one that
+    /// is lost or damaged makes its run an open one.
     ///
     /// # Errors
     /// [`Error::Create`], or [`Error::Input`] for a ledger that cannot be read.
     pub fn new(experiment: &'a Experiment, folder: &Path, rules: Rules) -> Result<Self> {
+        if folder.is_file() {
+            let reason = "it is a file, and a sweep goes to a folder";
+            return Err(Error::Create {
+                path: folder.into(),
+                source: io::Error::new(io::ErrorKind::NotADirectory, reason),
+            });
+        }
         let images = folder.join("images");
         fs::create_dir_all(&images).map_err(|source| Error::Create {
             path: images,
             source,
         })?;
-        let ledger = Ledger::open(folder)?;
+        let mut ledger = Ledger::open(folder)?;
+        let damaged = whole::forget_damaged(&mut ledger, folder, experiment);
         let open = experiment.plan.runs.iter();
         let runs = open
             .filter(|run| !ledger.knows(&run.id))
@@ -92,12 +83,18 @@ impl<'a> Sweep<'a> {
             ledger,
             rules,
             device: None,
+            damaged,
         })
     }
 
     /// Paths of the runs and references that are not there yet.
     pub fn paths(&self) -> u64 {
         self.pace.all()
+    }
+
+    /// What is wrong with the pictures of runs that were finished and are made again, a sentence each.
+    pub fn damaged(&self) -> &[String] {
+        &self.damaged
     }
 
     /// The device that is open, for the next sweep: its pipelines are kept.
@@ -131,20 +128,28 @@ impl<'a> Sweep<'a> {
     pub fn go(&mut self, open: &mut Open, watch: &mut Watch) -> Result<Summary> {
         let mut summary = Summary::default();
         let runs = &self.experiment.plan.runs;
-        for (done, run) in runs.iter().enumerate() {
+        let mut walk = Walk::new(runs.len());
+        while let Some(place) = walk.next() {
+            let run = &runs[place];
             if self.ledger.has(&run.id)? {
                 summary.skipped += 1;
                 continue;
             }
-            let step = (done, runs.len(), Step::Run(run));
+            let step = (summary.count(), runs.len(), Step::Run(run));
             if watch(self.pace.progress(step, 0)).is_break() {
                 summary.stopped = true;
                 break;
             }
-            match self.make(run, step, open, watch)? {
-                Some(Status::Ok) => summary.made += 1,
-                Some(_) => summary.failed += 1,
-                None => summary.stopped = true,
+            let outcome = self.make(run, step, open, watch)?;
+            match outcome {
+                Outcome::Made | Outcome::MadeTwice => summary.made += 1,
+                Outcome::ByAnother => summary.skipped += 1,
+                Outcome::Failed => summary.failed += 1,
+                Outcome::Stopped => summary.stopped = true,
+            }
+            if matches!(outcome, Outcome::MadeTwice | Outcome::ByAnother) {
+                let is_finished = |place: usize| self.ledger.knows(&runs[place].id);
+                summary.skipped += walk.leap(is_finished);
             }
             self.pace.add(run.paths);
             if summary.stopped || (summary.failed > 0 && self.rules.fail_fast) {
@@ -154,32 +159,42 @@ impl<'a> Sweep<'a> {
         Ok(summary)
     }
 
-    /// One run, with its retries; `None` if it was stopped, which leaves no trace of it.
+    /// One run, with its retries. One that was stopped leaves no trace, nor does one that another process has
+    /// finished meanwhile.
     fn make(
         &mut self,
         run: &Planned,
         step: (usize, usize, Step),
         open: &mut Open,
         watch: &mut Watch,
-    ) -> Result<Option<Status>> {
+    ) -> Result<Outcome> {
         let scene = self.experiment.base.scene(&run.point)?;
         let pace = self.pace;
         let mut hear = |paths| watch(pace.progress(step, paths));
         let (attempt, attempts) = persist(&scene, &mut self.device, open, self.rules, &mut hear)?;
-        let (status, entry) = match attempt {
-            Attempt::Stopped => return Ok(None),
+        let (outcome, entry) = match attempt {
+            Attempt::Stopped => return Ok(Outcome::Stopped),
+            _ if self.ledger.has(&run.id)? => return Ok(Outcome::ByAnother),
             Attempt::Bad(status, error) => {
                 let entry = entry(run, &scene, None, status, Some(error), attempts);
-                (status, entry)
+                (Outcome::Failed, entry)
             }
             Attempt::Ok(picture) => {
-                let record = self.write("images", &run.id, *picture)?;
+                let mut record = self.write("images", &run.id, *picture)?;
+                let hash = whole::hash(&whole::image_file(&self.folder, &run.id))?;
+                record.insert(HASH.into(), hash.into());
                 let entry = entry(run, &scene, Some(record), Status::Ok, None, attempts);
-                (Status::Ok, entry)
+                (Outcome::Made, entry)
             }
         };
         self.ledger.append(&entry)?;
-        Ok(Some(status))
+        self.ledger.refresh()?;
+        let first = self.ledger.hashes(&run.id).first();
+        let own = entry.get(HASH).and_then(Value::as_str);
+        Ok(match (outcome, first) {
+            (Outcome::Made, Some(first)) if Some(first.as_str()) != own => Outcome::MadeTwice,
+            (outcome, _) => outcome,
+        })
     }
 
     /// Makes the references of the finished runs that are not there yet. One that cannot be made is a line of
@@ -269,44 +284,4 @@ impl<'a> Sweep<'a> {
 fn is_there(folder: &Path, id: &str) -> bool {
     let record = read_record(reference_file(folder, id, "exr"));
     record.is_ok_and(|(record, _)| record.complete)
-}
-
-/// A line of the ledger. A run without a picture has its knobs all the same.
-fn entry(
-    run: &Planned,
-    scene: &Scene,
-    record: Option<Map<String, Value>>,
-    status: Status,
-    error: Option<String>,
-    attempts: u32,
-) -> Entry {
-    let value = |path: &str, text: &str| {
-        scene
-            .knobs
-            .get(path)
-            .cloned()
-            .unwrap_or_else(|| text.into())
-    };
-    let swept: Map<String, Value> = run
-        .point
-        .values
-        .iter()
-        .map(|(path, text)| (path.clone(), value(path, text)))
-        .collect();
-    let mut entry = Map::new();
-    entry.insert("id".into(), run.id.as_str().into());
-    entry.insert("status".into(), status.name().into());
-    entry.insert("error".into(), json!(error));
-    entry.insert("attempts".into(), attempts.into());
-    entry.insert("run".into(), run.number.into());
-    entry.insert("repeat".into(), run.point.repeat.into());
-    entry.insert("swept".into(), Value::Object(swept));
-    match record {
-        Some(record) => entry.extend(record),
-        None => {
-            entry.insert("knobs".into(), Value::Object(scene.knobs.clone()));
-            entry.insert("seed".into(), scene.settings.render.seed.into());
-        }
-    }
-    entry
 }

@@ -45,6 +45,28 @@ fn bias_first_then_cost_then_crossing() {
     );
 }
 
+/// A bias that a single sample's noise does not reach; of many only the first few are said.
+#[test]
+fn crossings_below_one_and_many_of_them() {
+    let mut world = LARGE;
+    world.estimators[1] = Estimator {
+        bias: 0.5,
+        deviation: 0.3,
+        ..world.estimators[1]
+    };
+    let analysis = world.sweep(6, [|_| {}, |_| {}]);
+    let text = findings(&analysis);
+    let sentence = "second, whole picture: bias is larger than the noise of a single sample.";
+    assert!(text.contains(sentence), "{text}");
+    assert!(!text.contains("overtakes noise at 0"), "{text}");
+    let second = analysis.groups[1].clone();
+    let groups = std::iter::repeat_n(second, 7).collect();
+    let many = Analysis::new(analysis.question, groups, None).expect("groups");
+    let text = findings(&many);
+    assert_eq!(text.matches("of a single sample").count(), 4, "{text}");
+    assert!(text.contains("in 3 more of these places"), "{text}");
+}
+
 #[test]
 fn which_is_better_and_by_how_much() {
     let mut world = LARGE;

@@ -5,7 +5,7 @@ use lampray::analysis::{Analysis, Group, Question, Reference, Region, Runs};
 use lampray::compare::verdict::Terms;
 use lampray::device::{DeviceInfo, DeviceKind};
 use lampray::film::{Picture, Record, Seconds};
-use serde_json::Map;
+use serde_json::{Map, Value};
 
 /// Colour of everything: the channels of a path rise and fall together.
 pub const COLOUR: [f64; 3] = [1.0, 0.7, 0.4];
@@ -143,6 +143,47 @@ impl World {
             })
             .collect();
         Analysis::new(question, groups, None).expect("two groups")
+    }
+}
+
+/// A group with values: rows of the same stream have the same random numbers.
+#[derive(Clone, Debug)]
+pub struct Row {
+    pub values: Map<String, Value>,
+    pub estimator: Estimator,
+    /// Even.
+    pub samples: u32,
+    pub stream: u64,
+}
+
+impl World {
+    /// A sweep of groups with values, without a reference.
+    pub fn table(&self, seed: u64, rows: &[Row], change: Change) -> Analysis {
+        let size = [self.size; 2];
+        let question = Question::new(size, Vec::new(), Vec::new(), Terms::default(), rows.len());
+        let question = question.expect("a question");
+        let group = |row: &Row| {
+            let mut stream =
+                Stream::new((seed * 64 + row.stream).wrapping_mul(0x2545_f491_4f6c_dd1d));
+            let world = World {
+                samples: row.samples,
+                ..*self
+            };
+            let mut runs = Runs::new(
+                &Value::Object(row.values.clone()).to_string(),
+                row.values.clone(),
+            );
+            for number in 0..self.runs as u64 {
+                let mut picture = world.run(row.estimator, number, &mut stream);
+                change(&mut picture);
+                let jitter = row.estimator.jitter * Noise::Normal.pair(&mut stream)[0];
+                let seconds = row.estimator.seconds * (1.0 + jitter);
+                runs.add(&picture, seconds).expect("a run");
+            }
+            question.answer(runs, None).expect("a group")
+        };
+        let groups = rows.iter().map(group).collect();
+        Analysis::new(question, groups, None).expect("groups")
     }
 }
 

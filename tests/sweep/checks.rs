@@ -24,6 +24,15 @@ fn mistakes_are_said_before_anything_is_made() {
         ),
         (&["--set", "render.seed=1,2", "--seeds", "2"], 2),
         (&["--set", "render.samples=1..1000", "--seeds", "10000"], 2),
+        (&["--set", "render.samples=1,2", "--spp", "4"], 2),
+        (&["--set", "render.preset=paper", "--preset", "paper"], 2),
+        (&["--set", "render.seed=1,2", "--seed", "4"], 2),
+        (&["--set", "image.width=8,9", "--width", "8"], 2),
+        (&["--set", "image.height=8,9", "--height", "8"], 2),
+        (
+            &["--set", "render.max_bounces=1,2", "--max-bounces", "4"],
+            2,
+        ),
         (&["--timeout", "0"], 2),
         (&["--reference", "none.exr"], 66),
         (&["--reference", "s.toml"], 65),
@@ -160,8 +169,52 @@ fn several_sizes() {
     let report = report(at);
     assert_eq!(report["groups"].as_array().map(Vec::len), Some(1));
     let words = findings(&report);
-    assert!(
-        words.contains("first run's size, 16 x 16: 24, 8."),
-        "{words}"
-    );
+    assert!(words.contains("first run's size, 16 x 16: 24."), "{words}");
+}
+
+/// What is swept and has a short flag, too: the message names both.
+#[test]
+fn a_knob_is_swept_or_set() {
+    let folder = folder();
+    let at = folder.path();
+    let words = |arguments: &[&str]| {
+        let output = sweep(at, arguments);
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let both = words(&["--set", "render.samples=8,16", "-s", "4"]);
+    let expected = "render.samples is swept, and --samples sets it: one of the two";
+    assert!(both.contains(expected), "{both}");
+    // The scene's own table is no other.
+    let table = "[sweep]\nset = [\"render.max_bounces=1,2\"]\n";
+    fs::write(at.join("s.toml"), format!("{SCENE}{table}")).expect("the scene");
+    let both = words(&["--max-bounces", "4"]);
+    assert!(both.contains("--max-bounces sets it"), "{both}");
+    assert!(!at.join("out").exists());
+}
+
+#[test]
+fn a_file_is_no_folder() {
+    let folder = folder();
+    fs::write(folder.path().join("out"), "a file").expect("it");
+    let output = sweep(folder.path(), &["-s", "4"]);
+    let words = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(73), "{words}");
+    assert!(words.contains("cannot create out: it is a file"), "{words}");
+}
+
+/// The file that was there before is none of standard output's.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output() {
+    let folder = folder();
+    let full = fs::OpenOptions::new().write(true).open("/dev/full");
+    let output = command(folder.path(), &["-s", "4", "--dry-run"])
+        .stdout(full.expect("a device"))
+        .output()
+        .expect("the program runs");
+    let words = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(74), "{words}");
+    assert!(words.contains("cannot write to standard output"), "{words}");
+    assert!(!words.contains("untouched"), "{words}");
 }

@@ -3,7 +3,7 @@
 use super::super::{Output, print};
 use super::words::spelled;
 use crate::device::Device;
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::render::{self, Task};
 use crate::scene::Scene;
 use crate::sweep::Experiment;
@@ -43,8 +43,8 @@ pub(super) fn foretell(
         many => format!(", {many} references of {more} paths"),
     };
     print(&format!(
-        "{} runs, {paths} paths{own}, about {about} on {}\n",
-        runs.len(),
+        "{}, {paths} paths{own}, about {about} on {}\n",
+        counted(runs.len(), "run"),
         device.info().name
     ))
 }

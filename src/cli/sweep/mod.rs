@@ -1,4 +1,5 @@
 mod foretell;
+mod told;
 pub(super) mod words;
 
 use super::options::{DeviceOptions, ShortKnobs};
@@ -8,7 +9,7 @@ use super::{Output, note, print};
 use crate::device::{Device, DeviceInfo};
 use crate::error::{Error, Result};
 use crate::place::Place;
-use crate::report::page;
+use crate::report::{ReportData, page};
 use crate::scene::Scene;
 use crate::sweep::{
     About, Axis, Base, Experiment, Grid, Progress, ReferenceRule, ReferenceSummary, Rules, Summary,
@@ -16,7 +17,6 @@ use crate::sweep::{
 };
 use clap::Args;
 use foretell::foretell;
-use serde_json::json;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -28,9 +28,13 @@ use words::{command_line, describe, ended, not_made, several_sizes, spelled, tit
 /// (4..1024*2); several --set make a grid, --zip takes them in step. The folder gets runs.jsonl (one line
 /// a run, only ever added to), images/ID.exr and .png, table.csv (one row a run, every knob) and
 /// report.html (one file, works offline): bias, noise and cost with intervals, and the pictures. A run
-/// that is finished there is not made again; a failed one is. After the runs the sweep renders what
-/// they are held against into reference/: the same scene, sampled as by the preset reference, once for
-/// each expected picture. Without --set the scene's own [sweep] table says what to render:
+/// that is finished there is not made again, unless its EXR is lost or damaged; a failed one is. After
+/// the runs the sweep renders what they are held against into reference/: the same scene, sampled as by
+/// the preset reference, once for each expected picture. What the pictures say of bias, noise and time
+/// goes to stdout, a sentence a line; with --json one object: folder, made, skipped, failed, stopped,
+/// references, findings (the sentences) and groups, each with name, values, runs, samples, seconds and
+/// the figures of the whole picture (mean, bias, variance, mse, verdict and others), where numbers with
+/// a 95 % interval are {value, low, high} and what is not known is null. Without --set the scene's own [sweep] table says what to render:
 /// set = ["PATH=VALUES", ...], zip, seeds, reference, regions.
 #[derive(Args)]
 #[command(after_help = "Examples:
@@ -92,6 +96,7 @@ impl Command {
         let scene = Scene::parse(&base.name, &base.text, &base.assignments)?;
         let grid = self.grid(&scene)?;
         grid.count()?;
+        self.knobs.refuse_swept(&grid.axes)?;
         let rules = self.rules()?;
         let device = self.open(output)?;
         let experiment = self.experiment(&scene, base, grid, device.info())?;
@@ -102,6 +107,9 @@ impl Command {
             remark(&text, output);
         }
         let mut sweep = Sweep::new(&experiment, &self.output, rules)?;
+        for fault in sweep.damaged() {
+            remark(&format!("lampray: {fault}; the run is made again"), output);
+        }
         let (summary, references) = self.make(&mut sweep, device, &signals, output)?;
         sweep.write_table()?;
         let about = About {
@@ -111,7 +119,7 @@ impl Command {
         };
         let data = report_data(&self.output, &experiment, about)?;
         self.write("report.html", &page(&data)?)?;
-        self.conclude(summary, references, output)
+        self.conclude(summary, &references, &data, output)
     }
 
     /// Makes the runs and then, unless they ended early, the references.
@@ -213,27 +221,21 @@ impl Command {
     fn conclude(
         &self,
         summary: Summary,
-        references: ReferenceSummary,
+        references: &ReferenceSummary,
+        data: &ReportData,
         output: Output,
     ) -> Result<()> {
-        let stopped = summary.stopped || references.stopped;
-        remark(&ended(&self.output, summary, &references), output);
+        remark(&ended(&self.output, summary, references), output);
         for (name, reason) in &references.failed {
             remark(
                 &format!("lampray: the {name} was not made: {reason}"),
                 output,
             );
         }
-        if output.json {
-            let own = json!({
-                "made": references.made, "found": references.found, "failed": references.failed.len(),
-            });
-            let told = json!({
-                "folder": self.output, "made": summary.made, "skipped": summary.skipped,
-                "failed": summary.failed, "stopped": stopped, "references": own,
-            });
-            print(&format!("{told}\n"))?;
-        }
+        print(&match output.json {
+            true => format!("{}\n", told::json(&self.output, summary, references, data)),
+            false => data.findings.iter().map(|one| format!("{one}\n")).collect(),
+        })?;
         match (summary.failed, references.failed.len()) {
             (0, 0) => Ok(()),
             (0, references) => Err(Error::References(references)),

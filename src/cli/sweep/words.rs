@@ -1,5 +1,6 @@
 //! What is said of a sweep.
 
+use crate::error::counted;
 use crate::sweep::{Experiment, Progress, ReferenceSummary, Step, Summary};
 use std::path::Path;
 use std::time::Duration;
@@ -89,10 +90,14 @@ pub(super) fn ended(folder: &Path, runs: Summary, references: &ReferenceSummary)
         true => " (stopped early)",
         false => "",
     };
+    let were = |count: usize| match count {
+        1 => "1 was there".into(),
+        count => format!("{count} were there"),
+    };
     let own = match (references.made, references.found) {
         (0, 0) => String::new(),
-        (made, found) => format!("; references: {made} made, {found} were there"),
+        (made, found) => format!("; references: {made} made, {}", were(found)),
     };
-    let folder = folder.display();
-    format!("{folder}: {made} runs made{state}, {skipped} were there, {failed} failed{own}")
+    let (folder, made, skipped) = (folder.display(), counted(made, "run"), were(skipped));
+    format!("{folder}: {made} made{state}, {skipped}, {failed} failed{own}")
 }
