@@ -12,6 +12,7 @@ use crate::shader::{Kernel, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The buffers that results come back in; they grow with the largest block so far.
 #[derive(Debug)]
@@ -305,5 +306,9 @@ impl Device for Gpu {
         let inputs = [(bytemuck::bytes_of(job), wgpu::BufferUsages::UNIFORM)];
         let groups = [job.count.div_ceil(64), 1];
         self.dispatch(&pipeline, false, &inputs, groups, job.count as usize)
+    }
+
+    fn readback(&self) -> Duration {
+        self.guard.readback()
     }
 }
