@@ -284,4 +284,47 @@ mod tests {
             "a     22\nlong   1\ncut\n"
         );
     }
+
+    fn refused(scene: &str, reason: &str) -> Row {
+        Row {
+            scene: scene.into(),
+            primitives: 7,
+            device: "gpu".into(),
+            device_info: crate::cpu::info(),
+            preset: "reference".into(),
+            kernel: None,
+            status: Status::Refused,
+            reason: Some(reason.into()),
+            figures: None,
+        }
+    }
+
+    #[test]
+    fn rows_without_numbers_say_why_and_each_reason_once() {
+        let mut stopped = refused("late", "");
+        (stopped.status, stopped.reason) = (Status::Stopped, None);
+        let report = Report {
+            version: "0".into(),
+            shader_hash: String::new(),
+            machine: crate::bench::Machine::here(),
+            repeats: 3,
+            seconds: 1.0,
+            set: vec!["light.strategy=sample".into()],
+            complete: false,
+            rows: vec![
+                refused("a", "too long"),
+                refused("b", "too long"),
+                refused("c", "too wide"),
+                stopped,
+            ],
+            ratios: Vec::new(),
+            against: None,
+        };
+        let text = table(&report);
+        let count = |part: &str| text.matches(part).count();
+        assert_eq!((count("cannot (1)"), count("cannot (2)")), (2, 1), "{text}");
+        assert_eq!((count("too long"), count("too wide")), (1, 1), "{text}");
+        assert_eq!(count("not reached"), 1, "{text}");
+        assert!(text.contains("stopped early") && text.contains("with light.strategy=sample"));
+    }
 }
