@@ -1,10 +1,10 @@
 //! Renders what the paper's figures are made of: the sweeps of [`crate::figures::studies`] and the points of
 //! figure 6, into a folder from which the figures are drawn.
 
-use crate::device::Device;
+use crate::device::{Device, DeviceInfo};
 use crate::error::{Error, Result};
 use crate::figures::{
-    CASES, Effort, POINTS, Study, device_file, points_file, studies, study_folder,
+    CASES, Effort, Made, MadeFigure, POINTS, Study, points_file, studies, study_folder,
 };
 use crate::place::Place;
 use crate::points::{self, Kind, Request};
@@ -47,9 +47,6 @@ pub fn reproduce(order: Order, open: &mut Open, hear: &mut Hear) -> Result<Outco
     let info = first.info().clone();
     let data = order.folder.join("data");
     fs::create_dir_all(&data).map_err(|source| Error::Create { path: data, source })?;
-    let text = serde_json::to_string_pretty(&info);
-    let text = text.map_err(|error| Error::Internal(error.to_string()))?;
-    write(&device_file(order.folder), &(text + "\n"))?;
     if order.figures.contains(&6) {
         draw_points(order.folder, first.as_mut())?;
     }
@@ -82,7 +79,23 @@ pub fn reproduce(order: Order, open: &mut Open, hear: &mut Hear) -> Result<Outco
             break;
         }
     }
+    if !outcome.stopped && outcome.failed == 0 {
+        note(order, &info)?;
+    }
     Ok(outcome)
+}
+
+/// Writes down what is there now, beside the figures of earlier calls.
+fn note(order: Order, device: &DeviceInfo) -> Result<()> {
+    let mut made = Made::read(order.folder)?;
+    for number in order.figures {
+        let of = MadeFigure {
+            effort: order.effort,
+            device: device.clone(),
+        };
+        made.0.insert(*number, of);
+    }
+    made.write(order.folder)
 }
 
 /// Paths and time of all studies together.

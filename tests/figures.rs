@@ -12,5 +12,7 @@ mod places;
 mod sample;
 #[path = "figures/sample_pictures.rs"]
 mod sample_pictures;
+#[path = "figures/sample_runs.rs"]
+mod sample_runs;
 #[path = "figures/written.rs"]
 mod written;

@@ -2,6 +2,8 @@
 
 mod support;
 
+use lampray::figures::page::markdown;
+use lampray::figures::{About, Figure};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -202,4 +204,25 @@ fn nothing_to_draw() {
     let refused = figures(&file, &["--quick", "--only", "6"]);
     assert_eq!(refused.status.code(), Some(73), "{}", text(&refused.stderr));
     assert_eq!(fs::read(&file).unwrap(), b"x");
+}
+
+/// `docs/make` measures; from its numbers the page is made again here.
+#[test]
+fn the_page_in_docs_is_made_of_its_numbers() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let numbers: Value =
+        serde_json::from_slice(&fs::read(docs.join("figures.json")).unwrap()).unwrap();
+    let figures: Vec<Figure> = serde_json::from_value(numbers["figures"].clone()).unwrap();
+    let about: About = serde_json::from_value(numbers["about"].clone()).unwrap();
+    let page = fs::read_to_string(docs.join("claims.md")).unwrap();
+    assert!(
+        page == markdown(&figures, &about),
+        "run docs/make --draw-only"
+    );
+    for name in page
+        .split(['(', ')'])
+        .filter(|word| word.ends_with(".png") || word.ends_with(".svg"))
+    {
+        assert!(docs.join(name).exists(), "{name}");
+    }
 }

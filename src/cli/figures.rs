@@ -2,7 +2,7 @@ use super::options::DeviceOptions;
 use super::progress::Bar;
 use super::signal::Watch;
 use super::sweep::remark;
-use super::sweep::words::{command_line, describe, spelled};
+use super::sweep::words::{describe, spelled};
 use super::{Output, print};
 use crate::error::{Error, Result};
 use crate::figures::{self, About, Data, Effort, Figure, NUMBERS, files};
@@ -29,12 +29,12 @@ pub(crate) struct Command {
     #[arg(short, long = "output", value_name = "DIR", default_value = "figures")]
     output: PathBuf,
     /// Small pictures and few seeds: every claim is told, with wider intervals
-    #[arg(long)]
+    #[arg(long, conflicts_with = "draw_only")]
     quick: bool,
-    /// Some of the figures 5 to 9
-    #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(5..=9))]
+    /// Render some of the figures 5 to 9; those that are there already stay on the page
+    #[arg(long, conflicts_with = "draw_only", value_name = "N,...", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(5..=9))]
     only: Vec<u32>,
-    /// Draw what was rendered before, and render nothing
+    /// Draw all that was rendered into the folder before, and render nothing
     #[arg(long)]
     draw_only: bool,
     #[command(flatten)]
@@ -69,16 +69,14 @@ impl Command {
         if outcome.failed > 0 {
             return Err(Error::Runs(outcome.failed));
         }
-        let data = Data::read(&self.output, effort, &numbers)?;
-        let drawn = numbers.iter().map(|number| figures::figure(&data, *number));
+        let data = Data::read(&self.output)?;
+        let drawn = data
+            .made
+            .0
+            .keys()
+            .map(|number| figures::figure(&data, *number));
         let drawn: Vec<Figure> = drawn.collect::<Result<_>>()?;
-        let about = About {
-            version: env!("CARGO_PKG_VERSION").into(),
-            device: data.device.name.clone(),
-            command: command_line(),
-            seconds: data.seconds(),
-            effort: effort.name().into(),
-        };
+        let about = About::new(&data, &self.output);
         let files = files::write(&self.output, &drawn, &about)?;
         self.conclude(&drawn, &files, outcome, started, output)
     }

@@ -3,7 +3,7 @@
 use super::build::{map, pictures, ratio, shown, squared_distance};
 use super::data::Data;
 use super::figure::*;
-use crate::analysis::words::{percent, ranged};
+use crate::analysis::words::{number, percent, ranged};
 use crate::analysis::{Group, Quantity};
 use crate::error::Result;
 use std::fmt::Write as _;
@@ -44,6 +44,7 @@ pub fn figure(data: &Data) -> Result<Figure> {
             Block::Plots(distances(&between)),
         ],
         commands: data.commands(5),
+        sweeps: data.pages(5),
         data: vec![csv(&between)],
     })
 }
@@ -202,7 +203,7 @@ fn verdict(between: &[Between]) -> Verdict {
     let left = root(widest.matt);
     let end = match left.low > 0.0 {
         true => format!(
-            "however wide, it does not become matt: at {} it is {} of the way off",
+            "however wide, it does not become matt: at {} radians {} of the way is left",
             widest.spread,
             ranged(left)
         ),
@@ -211,8 +212,7 @@ fn verdict(between: &[Between]) -> Verdict {
     Verdict {
         holds: Holds::Yes,
         text: format!(
-            "Between the two it is for spreads from {first} to {last} radians; narrower ones cannot be told from a mirror with these \
-             samples, and {end}."
+            "It is between the two for spreads from {first} to {last} radians. Narrower ones cannot be told from a mirror with these samples; {end}."
         ),
     }
 }
@@ -222,38 +222,42 @@ fn results(data: &Data, between: &[Between]) -> Result<Vec<String>> {
     for (preset, label) in PRESETS {
         let group = data.group(BALLS, &[("render.preset", preset)])?;
         for name in REGIONS {
-            let region = data.region(BALLS, name)?;
-            if let Some(bias) = group.regions[region].relative_bias {
-                let way = if bias.value < 0.0 {
-                    "darker"
-                } else {
-                    "brighter"
-                };
-                let interval = bias.interval();
-                if interval.low <= 0.0 && interval.high >= 0.0 {
-                    sentences.push(format!(
-                        "The {name}, {label}: no bias is seen, {}.",
-                        percent(interval)
-                    ));
-                } else {
-                    let size = if bias.value < 0.0 {
-                        crate::analysis::words::negated(interval)
-                    } else {
-                        interval
-                    };
-                    sentences.push(format!(
-                        "The {name}, {label}, is {} {way} than the truth.",
-                        percent(size)
-                    ));
-                }
-            }
+            let figures = &group.regions[data.region(BALLS, name)?];
+            let Some(bias) = figures.relative_bias else {
+                continue;
+            };
+            let level = Quantity::over(&figures.mean).value;
+            let apart = map(figures.energy.bias_squared().interval(), |square| {
+                square.max(0.0).sqrt() / level
+            });
+            sentences.push(match apart.low > 0.0 {
+                true => format!(
+                    "The {name}, {label}: its pixels are {} off the truth (root mean square), its mean {}.",
+                    percent(apart),
+                    percent(bias.interval())
+                ),
+                false => format!(
+                    "The {name}, {label}: no bias is seen, neither in its pixels nor in its mean, {}.",
+                    percent(bias.interval())
+                ),
+            });
         }
     }
     if let Some(narrow) = between.first() {
+        let reach = root(narrow.mirror);
+        let apart = match reach.low > 0.0 {
+            true => format!(
+                "is {} of the way from the mirror to the matt ball",
+                ranged(reach)
+            ),
+            false => format!(
+                "cannot be told from the mirror: at most {} of the way to the matt ball",
+                number(reach.high)
+            ),
+        };
         sentences.push(format!(
-            "With a spread of {} the directional ball is {} of the way away from the mirror.",
-            narrow.spread,
-            ranged(root(narrow.mirror))
+            "With a spread of {} radians the ball {apart}.",
+            narrow.spread
         ));
     }
     Ok(sentences)

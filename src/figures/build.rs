@@ -3,6 +3,7 @@
 use super::figure::{Pictures, Shown};
 use crate::analysis::words::number;
 use crate::analysis::{Group, Quantity};
+use crate::compare::verdict::two_sided;
 use crate::film::Curve;
 use crate::knobs::Encoding;
 use crate::pack::Rect;
@@ -94,6 +95,41 @@ pub fn squared_distance(a: &Group, b: &Group, width: u32, rect: Rect) -> Quantit
         }
     }
     Quantity::new(sum / count, variance / (count * count), f64::INFINITY)
+}
+
+/// Mean of a over mean of b in a part of two groups' pictures. Runs of equal seeds share paths, so each pixel's
+/// a - ratio b, rather than a and b apart, gives the error (the ratio estimate of survey sampling, Cochran 1977).
+pub fn paired_ratio(a: &Group, b: &Group, width: u32, rect: Rect) -> Quantity {
+    let pixels = || {
+        (rect.y0..rect.y1)
+            .flat_map(move |y| (rect.x0..rect.x1).map(move |x| (y * width + x) as usize))
+    };
+    let level = |group: &Group, pixel: usize| {
+        let channels = group.maps.mean[pixel];
+        channels.iter().map(|value| f64::from(*value)).sum::<f64>() / 3.0
+    };
+    let sum = |group: &Group| pixels().map(|pixel| level(group, pixel)).sum::<f64>();
+    let (top, bottom) = (sum(a), sum(b));
+    let ratio = top / bottom;
+    let left: Vec<f64> = pixels()
+        .map(|pixel| level(a, pixel) - ratio * level(b, pixel))
+        .collect();
+    let left = mean_of(&left).times(left.len() as f64 / bottom);
+    Quantity {
+        value: ratio,
+        ..left
+    }
+}
+
+/// The largest of some numbers of standard errors, and the chance of one as large among so many, whatever
+/// they share (Bonferroni 1936).
+pub fn furthest(z: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (mut largest, mut count) = (0.0f64, 0.0);
+    for z in z {
+        largest = largest.max(z.abs());
+        count += 1.0;
+    }
+    (largest, (count * two_sided(largest)).min(1.0))
 }
 
 /// Mean of independent numbers with its standard error.

@@ -1,12 +1,16 @@
 //! The folder that the studies were rendered to, read back.
 
 use super::study::{Effort, Study, studies};
-use crate::analysis::{Analysis, Group, Quantity};
+use crate::analysis::{Against, Analysis, Group, Quantity};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
+use crate::place::Place;
 use crate::sweep::{Answer, Entry, Experiment, ReferenceRule};
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The paper's three cases (section 2.2), in its order and by the knob's names.
@@ -15,10 +19,19 @@ pub const CASES: [&str; 3] = ["uniform-angles", "inverse-cosine", "gaussian"];
 /// Points that figure 6 shows of each case.
 pub const POINTS: u32 = 800;
 
-/// Everything that the figures are made of.
-pub struct Data {
+/// What was rendered of the figures, with what, by their numbers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Made(pub BTreeMap<u32, MadeFigure>);
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MadeFigure {
     pub effort: Effort,
     pub device: DeviceInfo,
+}
+
+/// Everything that the figures are made of.
+pub struct Data {
+    pub made: Made,
     /// Points of the paper's cases on the unit sphere.
     pub points: [Vec<[f64; 3]>; 3],
     answers: Vec<(Study, Answer)>,
@@ -46,44 +59,91 @@ pub fn points_file(folder: &Path, case: &str) -> PathBuf {
     folder.join("data").join(format!("fig6-{case}.csv"))
 }
 
-/// Where it keeps which device traced.
-pub fn device_file(folder: &Path) -> PathBuf {
-    folder.join("data").join("device.json")
+/// Where it keeps what was rendered.
+fn made_file(folder: &Path) -> PathBuf {
+    folder.join("data").join("made.json")
+}
+
+impl Made {
+    /// What a folder has; nothing where it is not there.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for a file that is something else.
+    pub fn read(folder: &Path) -> Result<Self> {
+        let path = made_file(folder);
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Self::default()),
+            Err(source) => return Err(Error::Input { path, source }),
+        };
+        serde_json::from_str(&text).map_err(|error| Error::Data {
+            path,
+            reason: error.to_string(),
+        })
+    }
+
+    /// # Errors
+    /// Those of writing the file.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        let text = serde_json::to_string_pretty(self);
+        let text = text.map_err(|error| Error::Internal(error.to_string()))?;
+        let place = Place::prepare(made_file(folder))?;
+        place.write(|sink| sink.write_all((text + "\n").as_bytes()))
+    }
 }
 
 impl Data {
-    /// Reads what was rendered for some of the figures; renders nothing.
+    /// Reads what was rendered; renders nothing.
     ///
     /// # Errors
-    /// [`Error::Input`] where a file is not there, [`Error::Data`] where it is not what it should be.
-    pub fn read(folder: &Path, effort: Effort, figures: &[u32]) -> Result<Self> {
-        let path = device_file(folder);
-        let text = read(&path)?;
-        let device: DeviceInfo = serde_json::from_str(&text).map_err(|error| Error::Data {
-            path,
-            reason: error.to_string(),
-        })?;
-        let answer = |study: Study| {
-            let experiment = study.experiment(&device)?;
-            let answer = Answer::read(&study_folder(folder, &study), &experiment, &mut |_, _| {})?;
-            Ok((study, answer))
-        };
-        let wanted = |study: &Study| figures.contains(&study.figure);
-        let read = |case: &str| match figures.contains(&6) {
+    /// [`Error::Usage`] where nothing was, [`Error::Input`] where a file is not there, [`Error::Data`] where
+    /// it is not what it should be.
+    pub fn read(folder: &Path) -> Result<Self> {
+        let made = Made::read(folder)?;
+        if made.0.is_empty() {
+            let path = made_file(folder);
+            let source = std::io::Error::new(
+                ErrorKind::NotFound,
+                "no figure was rendered into this folder yet",
+            );
+            return Err(Error::Input { path, source });
+        }
+        let mut answers = Vec::new();
+        for (number, of) in &made.0 {
+            for study in studies(of.effort)
+                .into_iter()
+                .filter(|study| study.figure == *number)
+            {
+                let experiment = study.experiment(&of.device)?;
+                let folder = study_folder(folder, &study);
+                answers.push((study, Answer::read(&folder, &experiment, &mut |_, _| {})?));
+            }
+        }
+        let read = |case: &str| match made.0.contains_key(&6) {
             true => points(&points_file(folder, case)),
             false => Ok(Vec::new()),
         };
         let [first, second, third] = CASES.map(read);
         Ok(Self {
-            effort,
             points: [first?, second?, third?],
-            answers: studies(effort)
-                .into_iter()
-                .filter(wanted)
-                .map(answer)
-                .collect::<Result<_>>()?,
-            device,
+            made,
+            answers,
         })
+    }
+
+    /// Name of the device that traced a figure.
+    pub fn device(&self, figure: u32) -> &str {
+        self.made.0.get(&figure).map_or("", |of| &of.device.name)
+    }
+
+    /// Pages of a figure's sweeps, beside the page of the figures.
+    pub fn pages(&self, figure: u32) -> Vec<String> {
+        let mine = self
+            .answers
+            .iter()
+            .filter(|(study, _)| study.figure == figure);
+        mine.map(|(study, _)| format!("data/{}/report.html", study.name))
+            .collect()
     }
 
     /// Tracing time of all runs.
@@ -114,10 +174,8 @@ impl Data {
     /// [`Error::Usage`] where it has none.
     pub fn analysis(&self, study: &str) -> Result<&Analysis> {
         let answer = self.answer(study)?;
-        answer
-            .analysis
-            .as_ref()
-            .ok_or_else(|| missing(study, "any run"))
+        let found = answer.analysis.as_ref();
+        found.ok_or_else(|| missing(study, "no run can be read", answer))
     }
 
     /// The group whose swept knobs have these values.
@@ -136,8 +194,21 @@ impl Data {
         let mut groups = self.analysis(study)?.groups.iter().enumerate();
         groups.find(|(_, group)| fits(group)).ok_or_else(|| {
             let list: Vec<_> = values.iter().map(|(_, value)| *value).collect();
-            missing(study, &list.join(", "))
+            let what = format!("no run of {} can be read", list.join(", "));
+            match self.answer(study) {
+                Ok(answer) => missing(study, &what, answer),
+                Err(error) => error,
+            }
         })
+    }
+
+    /// What a group's error costs, region by region.
+    ///
+    /// # Errors
+    /// As [`Data::group`].
+    pub fn against(&self, study: &str, values: &[(&str, &str)]) -> Result<&[Against]> {
+        let (place, _) = self.place(study, values)?;
+        Ok(&self.analysis(study)?.against[place])
     }
 
     /// Sum of a number of the records over the runs of a group, such as `rays`.
@@ -189,9 +260,10 @@ pub fn variance(group: &Group, region: usize) -> Quantity {
     Quantity::over(&group.regions[region].variance)
 }
 
-fn missing(study: &str, what: &str) -> Error {
+fn missing(study: &str, what: &str, answer: &Answer) -> Error {
+    let why = answer.left_out.join(" ");
     Error::Usage(format!(
-        "data/{study} lacks finished runs of {what}: run lampray figures without --draw-only"
+        "data/{study}: {what}. {why} lampray figures makes again what is missing, --draw-only does not."
     ))
 }
 

@@ -1,10 +1,10 @@
 //! What a figure is made of, before it is drawn: numbers, pictures and sentences.
 
 use crate::report::data::Interval;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// One of the paper's experiments: what it claims, and what the runs say.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Figure {
     /// The paper's number.
     pub number: u32,
@@ -20,19 +20,21 @@ pub struct Figure {
     pub blocks: Vec<Block>,
     /// Commands that make the data again.
     pub commands: Vec<String>,
+    /// Pages of the sweeps that the data are from, beside the page of the figures.
+    pub sweeps: Vec<String>,
     /// What the data are, as files.
     pub data: Vec<DataFile>,
 }
 
 /// What is left of a claim.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     pub holds: Holds,
     /// One sentence with its numbers.
     pub text: String,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Holds {
     Yes,
@@ -53,7 +55,7 @@ impl Holds {
     }
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Block {
     Pictures(Pictures),
@@ -62,7 +64,7 @@ pub enum Block {
 }
 
 /// Pictures in rows and columns, all shown with one exposure.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Pictures {
     /// A file name without an extension.
     pub name: String,
@@ -71,14 +73,14 @@ pub struct Pictures {
     pub rows: Vec<PictureRow>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PictureRow {
     pub label: String,
     pub cells: Vec<Shown>,
 }
 
 /// A picture as a screen shows it.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Shown {
     /// A line under the picture; empty for none.
     pub note: String,
@@ -90,7 +92,7 @@ pub struct Shown {
 }
 
 /// Plots that stand beside each other where there is room, under one caption.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Plots {
     /// A file name without an extension.
     pub name: String,
@@ -98,7 +100,7 @@ pub struct Plots {
     pub plots: Vec<Plot>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Plot {
     Lines(Lines),
@@ -107,7 +109,7 @@ pub enum Plot {
 }
 
 /// y against x.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Lines {
     pub title: String,
     pub x: Scale,
@@ -117,7 +119,7 @@ pub struct Lines {
     pub marks: Vec<Mark>,
 }
 
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Scale {
     pub label: String,
     pub logarithmic: bool,
@@ -126,8 +128,9 @@ pub struct Scale {
     pub high: Option<f64>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Series {
+    /// Empty where it belongs to another series and is told by its look.
     pub name: String,
     pub look: Look,
     /// Index of its colour: series that belong together have the same.
@@ -136,11 +139,13 @@ pub struct Series {
 }
 
 /// How a series is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Look {
     /// Dots with error bars, joined by a thin line.
     Measured,
+    /// Dots with error bars, beside a line that says how they are joined.
+    Dots,
     /// Many points: a line with a band.
     Band,
     /// What theory says: a dashed line without dots.
@@ -148,7 +153,7 @@ pub enum Look {
 }
 
 /// A value with its 95 % interval; low and high are the value itself where there is none.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     pub x: f64,
     pub y: f64,
@@ -177,14 +182,14 @@ impl Point {
 }
 
 /// A level with a name.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Mark {
     pub name: String,
     pub y: f64,
 }
 
 /// Groups of bars that start at a base line, with error bars.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bars {
     pub title: String,
     pub y: Scale,
@@ -198,7 +203,7 @@ pub struct Bars {
     pub marks: Vec<Mark>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BarGroup {
     pub name: String,
     /// One for each name; none where there is no number.
@@ -208,7 +213,7 @@ pub struct BarGroup {
 }
 
 /// Points on the unit sphere, seen from a little above its pole, in perspective-free projection.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Sphere {
     pub title: String,
     /// A line under it.
@@ -219,7 +224,7 @@ pub struct Sphere {
 }
 
 /// The paper's own colours for its three cases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Hue {
     Red,
@@ -227,7 +232,7 @@ pub enum Hue {
     Blue,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Table {
     pub caption: String,
     pub head: Vec<String>,
@@ -236,7 +241,7 @@ pub struct Table {
 }
 
 /// A file beside the page.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DataFile {
     pub name: String,
     #[serde(skip)]

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! [`studies`] says what has to be rendered, sweep by sweep; whoever renders it writes it where [`study_folder`],
-//! [`points_file`] and [`device_file`] say. From there on nothing is rendered: changing a plot costs a second.
+//! [`points_file`] and [`Made`] say. From there on nothing is rendered: changing a plot costs a second.
 
 mod about;
 mod balls;
@@ -28,7 +28,7 @@ mod study;
 mod times;
 
 pub use about::About;
-pub use data::{CASES, Data, POINTS, device_file, points_file, study_folder};
+pub use data::{CASES, Data, Made, MadeFigure, POINTS, points_file, study_folder};
 pub use figure::*;
 pub use study::{Effort, Study, studies};
 

@@ -112,6 +112,7 @@ pub fn figure(data: &Data) -> Result<Figure> {
         results: results(&tested, apart, apart_p),
         blocks: vec![Block::Plots(spheres(data, &tested)), Block::Table(table(&tested))],
         commands: commands(&second),
+        sweeps: data.pages(6),
         data: vec![csv(data)],
     })
 }

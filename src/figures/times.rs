@@ -91,6 +91,12 @@ impl Curve {
         ratio(difference(at(10), at(6)), difference(at(5), at(1)))
     }
 
+    /// The same of the rays, which are counted, not timed.
+    fn straightness_of_rays(&self) -> f64 {
+        let at = |limit: usize| self.steps[limit - 1].rays;
+        (at(10) - at(6)) / (at(5) - at(1))
+    }
+
     /// The same of the mean number of hits.
     fn expected_straightness(&self) -> f64 {
         let at = |limit: usize| self.steps[limit - 1].hits;
@@ -118,13 +124,14 @@ pub fn figure(data: &Data) -> Result<Figure> {
         reading: format!(
             "A closed room, so that no path is lost; the limit is the number of surfaces that a path may meet. The paper sets a \
              threshold t for each object besides; both are measured, without a threshold and with t = {THRESHOLD} everywhere. If each hit is \
-             followed by another with probability q, a path makes (1 - q^N) / (1 - q) hits on average. Times are of tracing alone, on {}.",
-            data.device.name
+             followed by another with probability q, here t, a path makes (1 - q^N) / (1 - q) hits on average. Times are of tracing alone, on {}.",
+            data.device(8)
         ),
         verdict: verdict(&curves),
         results: results(&curves),
         blocks: vec![Block::Plots(plots(&curves)), Block::Table(table(&curves))],
         commands: data.commands(8),
+        sweeps: data.pages(8),
         data: vec![csv(&curves)],
     })
 }
@@ -139,12 +146,12 @@ fn plots(curves: &[Curve]) -> Plots {
         let x = |step: &Step| f64::from(step.limit);
         let measured = mine().map(|curve| Series {
             name: STUDIES[curve.study].1.into(),
-            look: Look::Measured,
+            look: Look::Dots,
             colour: curve.study,
             points: curve.points(|step| Point::within(x(step), step.seconds.interval())),
         });
         let predicted = mine().map(|curve| Series {
-            name: format!("{}, in proportion to hits", STUDIES[curve.study].1),
+            name: String::new(),
             look: Look::Predicted,
             colour: curve.study,
             points: curve.points(|step| Point::exact(x(step), curve.by_hits.at(step.hits))),
@@ -183,7 +190,7 @@ fn plots(curves: &[Curve]) -> Plots {
     };
     Plots {
         name: "time".into(),
-        caption: "Median tracing time of a run over interleaved repeats, with its 95 % interval; dashed, a fit in proportion to \
+        caption: "Median tracing time of a run over interleaved repeats; its 95 % interval is made of their median distance from it. Dashed, a fit in proportion to \
                   (1 - q^N) / (1 - q) plus a constant."
             .into(),
         plots: vec![times(0), times(1), Plot::Lines(rays)],
@@ -192,11 +199,11 @@ fn plots(curves: &[Curve]) -> Plots {
 
 fn table(curves: &[Curve]) -> Table {
     let row = |curve: &Curve| {
-        let share = |line: Line| format!("{:.2} %", 100.0 * line.explained);
+        let share = |line: Line| format!("{:.1} %", 100.0 * line.explained);
         vec![
             curve.name(),
             format!("{:.1}", 1e3 * curve.steps[0].seconds.value),
-            ranged(curve.growth().interval()),
+            steadily_many(curve.growth()),
             number(curve.steps[curve.steps.len() - 1].hits),
             share(curve.by_limit),
             share(curve.by_hits),
@@ -223,56 +230,74 @@ fn find(curves: &[Curve], study: usize, rules: usize) -> &Curve {
     &curves[study * RULES.len() + rules]
 }
 
+/// Rays say it the same way on every machine; times say how far rays are what costs.
 fn verdict(curves: &[Curve]) -> Verdict {
     let (alone, with) = (find(curves, 0, 0), find(curves, 1, 0));
-    let told = |curve: &Curve| {
-        let interval = curve.straightness().interval();
-        if interval.high < NEARLY {
-            Holds::No
-        } else if interval.low > 0.5 * NEARLY {
-            Holds::Yes
-        } else {
-            Holds::Unknown
-        }
-    };
-    let holds = match (told(alone), told(with)) {
-        (Holds::Unknown, _) | (_, Holds::Unknown) => Holds::Unknown,
-        (Holds::Yes, Holds::Yes) => Holds::Yes,
-        (Holds::No, _) => Holds::No,
-        _ => Holds::Partly,
+    let straight = |curve: &Curve| curve.straightness_of_rays() > NEARLY;
+    let holds = match (straight(alone), straight(with)) {
+        (true, true) => Holds::Yes,
+        (true, false) => Holds::Partly,
+        (false, _) => Holds::No,
     };
     let words = |curve: &Curve| {
+        let seen = match straight(curve) {
+            true => "the cost is nearly a line",
+            false => "it levels off",
+        };
         format!(
-            "limits 7 to 10 add {} times what limits 2 to 5 add ({} expected)",
-            ranged(curve.straightness().interval()),
-            number(curve.expected_straightness())
+            "{seen}: counted in rays, limits 7 to 10 add {} times what limits 2 to 5 add (hits: {}), in time {}",
+            number(curve.straightness_of_rays()),
+            number(curve.expected_straightness()),
+            steadily(curve.straightness())
         )
     };
     Verdict {
         holds,
         text: format!(
-            "With the limit alone run time is a line: {}. With thresholds, as the paper has them (t = {THRESHOLD}), it levels off: {}. It \
-             follows the mean number of hits, (1 - q^N) / (1 - q), which is a line for q = 1 alone.",
+            "As published, with the limit alone {}. With thresholds, as the paper has them (t = {THRESHOLD}), {}.",
             words(alone),
             words(with)
         ),
     }
 }
 
+/// A number of times that may be too unsteady to be worth a number.
+fn steadily(value: Quantity) -> String {
+    let interval = value.interval();
+    match interval.high - interval.low < 1.0 {
+        true => ranged(interval),
+        false => "too unsteady on this machine to tell".into(),
+    }
+}
+
 fn results(curves: &[Curve]) -> Vec<String> {
     let sentence = |curve: &Curve| {
+        let explained = [curve.by_hits, curve.by_rays, curve.by_limit];
+        let [hits, rays, limit] = explained.map(|line| format!("{:.0} %", 100.0 * line.explained));
         format!(
-            "{}: {} ms a run and {} ms for each hit a path makes on average; hits explain {:.2} % of the run times, rays {:.2} %, the limit \
-             {:.2} %.",
-            curve.name(),
-            number(1e3 * curve.by_hits.offset),
-            number(1e3 * curve.by_hits.slope),
-            100.0 * curve.by_hits.explained,
-            100.0 * curve.by_rays.explained,
-            100.0 * curve.by_limit.explained
+            "{}: a straight line through rays explains {rays} of the differences in run time, through hits {hits}, through the limit {limit}; \
+             limit 10 takes {} times as long as limit 1.",
+            capital(&curve.name()),
+            steadily_many(curve.growth())
         )
     };
     curves.iter().map(sentence).collect()
+}
+
+/// The same where numbers are well above 1.
+fn steadily_many(value: Quantity) -> String {
+    let interval = value.interval();
+    match interval.high - interval.low < 0.5 * interval.value {
+        true => ranged(interval),
+        false => format!("about {:.0}", interval.value),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }
 
 fn csv(curves: &[Curve]) -> DataFile {

@@ -3,8 +3,8 @@
 import { readdirSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { launch, Page } from "../report/browser.mjs";
-import { equal, holds, verdict } from "../report/check.mjs";
+import { launch, Page } from "../browser/browser.mjs";
+import { equal, holds, verdict } from "../browser/check.mjs";
 
 const VIEWS = [
   { name: "desktop-light", width: 1280 },

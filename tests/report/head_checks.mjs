@@ -1,5 +1,5 @@
 // The head of the page: command, theme, region, and the values that are left out.
-import { equal, holds } from "./check.mjs";
+import { equal, holds } from "../browser/check.mjs";
 
 const style = (page, name) => page.run((each) => getComputedStyle(document.body)[each], name);
 

@@ -1,5 +1,5 @@
 // Convergence, bars and maps.
-import { equal, holds } from "./check.mjs";
+import { equal, holds } from "../browser/check.mjs";
 
 export async function plotChecks(page) {
   await page.go(await page.run(() => location.href));

@@ -1,7 +1,7 @@
 // Pictures of the page as readers see it.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Page } from "./browser.mjs";
+import { Page } from "../browser/browser.mjs";
 
 const VIEWS = [
   { name: "desktop-light", width: 1280 },

@@ -1,5 +1,5 @@
 // The two tables: sorting, filters, columns, CSV, and the buttons that lead to the pictures.
-import { equal, holds } from "./check.mjs";
+import { equal, holds } from "../browser/check.mjs";
 
 export async function tableChecks(page) {
   await sorting(page);

@@ -1,5 +1,5 @@
 // The viewer: slots, modes, exposure, zoom, pan, pixel values.
-import { equal, holds } from "./check.mjs";
+import { equal, holds } from "../browser/check.mjs";
 
 const CANVAS = "#stage canvas";
 

@@ -29,7 +29,7 @@ mod vicinity;
 pub use estimate::{Estimate, Parts};
 pub use moments::{Relation, Side, Sides};
 pub use needed::Needed;
-pub use normal::{quantile, student};
+pub use normal::{quantile, student, two_sided};
 pub use pixels::Pixels;
 pub use tiles::{Spot, Tiles};
 

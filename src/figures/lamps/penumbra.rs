@@ -1,10 +1,10 @@
 //! The penumbra of a straight edge, column by column, against the closed forms.
 
 use super::RULES;
-use crate::analysis::words::{number, percent};
+use crate::analysis::words::{negated, number, percent};
 use crate::analysis::{Group, Quantity};
 use crate::error::Result;
-use crate::figures::build::{chance, difference, map, mean_of};
+use crate::figures::build::{chance, difference, map, mean_of, ratio};
 use crate::figures::data::Data;
 use crate::figures::figure::*;
 use crate::theory::{Drawn, chi_square_above, integrate, share};
@@ -106,20 +106,17 @@ impl Profile {
         difference(column.measured, Quantity::exact(column.truth))
     }
 
-    /// Bias, mean over columns that an edge at `h` is seen from, weighted alike; -1 to 1 is the whole penumbra.
-    fn lit_half(&self) -> Quantity {
-        let inside: Vec<&Column> = self
-            .columns
-            .iter()
-            .filter(|column| (0.0..1.0).contains(&column.h))
-            .collect();
-        let light: f64 = inside.iter().map(|column| column.truth).sum();
-        let bias: f64 = inside.iter().map(|column| self.bias(column).value).sum();
-        let variance: f64 = inside
-            .iter()
-            .map(|column| column.measured.error.powi(2))
-            .sum();
-        Quantity::new(bias, variance, f64::INFINITY).times(1.0 / light)
+    /// Light of the columns that see more than half of the lamp but not all of it, measured and by the law.
+    fn lit_half(&self) -> (Quantity, f64) {
+        let inside = || {
+            self.columns
+                .iter()
+                .filter(|column| (0.0..1.0).contains(&column.h))
+        };
+        let light: f64 = inside().map(|column| column.measured.value).sum();
+        let variance: f64 = inside().map(|column| column.measured.error.powi(2)).sum();
+        let predicted = inside().map(|column| column.predicted).sum();
+        (Quantity::new(light, variance, f64::INFINITY), predicted)
     }
 
     /// The column whose law is furthest from the truth.
@@ -163,33 +160,52 @@ impl Penumbra {
             .find(|profile| profile.rules == rules && profile.way == way)
     }
 
-    /// Case 1 with its two poles against case 2, in the lit half of the penumbra, as published.
-    fn splits(&self) -> Vec<Quantity> {
+    /// Case 1 with its two poles over case 2, in the lit half of the penumbra, as published: measured, and by
+    /// the laws.
+    fn splits(&self) -> Vec<(Quantity, f64)> {
         let of = |way| self.of(0, way).map(Profile::lit_half);
-        let Some(second) = of(2) else {
+        let Some((second, second_law)) = of(2) else {
             return Vec::new();
         };
-        [of(0), of(1)]
-            .into_iter()
-            .flatten()
-            .map(|first| difference(first, second))
-            .collect()
+        let firsts = [of(0), of(1)].into_iter().flatten();
+        let split = |(first, law): (Quantity, f64)| {
+            let share = ratio(first, second);
+            let excess = Quantity {
+                value: share.value - 1.0,
+                ..share
+            };
+            (excess, law / second_law - 1.0)
+        };
+        firsts.map(split).collect()
     }
 
     /// Whether case 1 clearly differs from case 2 there.
     pub fn is_split(&self) -> bool {
-        self.splits()
-            .iter()
-            .any(|split| split.value.abs() > 3.0 * split.error)
+        let clear = |(split, _): &(Quantity, f64)| split.value.abs() > 3.0 * split.error;
+        self.splits().iter().any(clear)
     }
 
     /// The same in words.
     pub fn split(&self) -> String {
-        let words = |split: &Quantity| format!("{:+.1} %", 100.0 * split.value);
-        let splits: Vec<String> = self.splits().iter().map(words).collect();
+        let words = |((split, law), pole): (&(Quantity, f64), &str)| {
+            let less = split.value < 0.0;
+            let size = if less {
+                negated(split.interval())
+            } else {
+                split.interval()
+            };
+            let way = if less { "less" } else { "more" };
+            format!(
+                "{} {way} with its pole {pole} the edge (theory {:.1} %)",
+                percent(size),
+                100.0 * law.abs()
+            )
+        };
+        let poles = ["across", "along"];
+        let splits: Vec<String> = self.splits().iter().zip(poles).map(words).collect();
         format!(
-            "the light of its brighter half differs between cases 1 and 2 by {}, depending on how the pole lies to the edge",
-            splits.join(" or ")
+            "from half shadow to full light, case 1 has {} than case 2",
+            splits.join(" and ")
         )
     }
 
@@ -212,14 +228,7 @@ impl Penumbra {
             // Case 3 has the law of case 2.
             let laws = profiles
                 .filter(|profile| rules == 0 && profile.way < 3)
-                .map(|profile| {
-                    law(
-                        &format!("{}, theory", WAYS[profile.way].2),
-                        profile.way,
-                        profile,
-                        |column| column.predicted,
-                    )
-                });
+                .map(|profile| law("", profile.way, profile, |column| column.predicted));
             let truth = self
                 .of(rules, 0)
                 .map(|profile| law("truth", WAYS.len(), profile, |column| column.truth));
@@ -252,21 +261,24 @@ impl Penumbra {
 
     pub fn results(&self) -> Vec<String> {
         let mut sentences = Vec::new();
-        for rules in 0..2 {
-            let profiles = self
-                .profiles
-                .iter()
-                .filter(|profile| profile.rules == rules);
-            let (square, count) = profiles
-                .map(Profile::square)
-                .fold((0.0, 0.0), |(a, b), (square, count)| {
-                    (a + square, b + count)
-                });
+        for (rules, (_, label)) in RULES.into_iter().enumerate() {
+            let profiles = || {
+                self.profiles
+                    .iter()
+                    .filter(move |profile| profile.rules == rules)
+            };
+            let p = |profile: &Profile| {
+                let (square, count) = profile.square();
+                chi_square_above(square, count)
+            };
+            let least = profiles().map(p).fold(1.0, f64::min);
+            let count = profiles().count();
             sentences.push(format!(
-                "Penumbra, {}: {count:.0} columns of four profiles against their closed forms: chi-square {} (p = {}).",
-                RULES[rules].1,
-                number(square),
-                chance(chi_square_above(square, count))
+                "Penumbra, {label}: {count} profiles of {} columns against their closed forms, chi-square of each: the least p is {} (for so \
+                 many, {}).",
+                self.profiles[0].square().1,
+                chance(least),
+                chance((count as f64 * least).min(1.0))
             ));
         }
         for way in 0..3 {

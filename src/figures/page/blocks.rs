@@ -7,9 +7,6 @@ use crate::figures::{Block, Pictures, Plots, Shown, plot, sheet};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-/// Pictures and their gaps fill this at most; beyond it they are shown at their own size.
-const MOST_WIDTH: u32 = 1030;
-
 pub(super) fn block(block: &Block) -> Result<String> {
     match block {
         Block::Pictures(each) => pictures(each),
@@ -19,14 +16,7 @@ pub(super) fn block(block: &Block) -> Result<String> {
 }
 
 fn pictures(block: &Pictures) -> Result<String> {
-    let widths = block.rows.iter().map(|row| row.cells.len());
-    let columns = widths.max().unwrap_or(0).max(block.columns.len());
-    let own = sheet::widest(block);
-    let enlarged = if own * sheet::enlarged(block) * columns as u32 <= MOST_WIDTH {
-        sheet::enlarged(block)
-    } else {
-        1
-    };
+    let (columns, own) = (sheet::columns(block), sheet::widest(block));
     let mut cells = String::from("<span class=\"corner\"></span>\n");
     for column in 0..columns {
         let name = block.columns.get(column).map_or("", |name| name);
@@ -58,7 +48,7 @@ fn pictures(block: &Pictures) -> Result<String> {
         "<figure class=\"pictures{unnamed}\" style=\"--columns:{columns};--side:{}px;--own:{own}px\">\n\
          <div class=\"sheet\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\"><div class=\"cells\" data-columns=\"{columns}\">\n{cells}</div></div>\n\
          <figcaption>{caption}</figcaption>\n</figure>\n",
-        own * enlarged
+        own * sheet::enlarged(block)
     ))
 }
 

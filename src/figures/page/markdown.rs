@@ -20,7 +20,10 @@ pub fn markdown(figures: &[Figure], about: &About) -> String {
 
 fn made_by(about: &About) -> String {
     let mut facts = vec![format!("lampray {}", text(&about.version))];
-    facts.extend([&about.device, &about.effort].map(|fact| text(fact)));
+    facts.push(text(&about.device));
+    if !about.effort.is_empty() {
+        facts.push(format!("{} effort", text(&about.effort)));
+    }
     facts.extend(duration(about.seconds));
     facts.retain(|fact| !fact.is_empty());
     let made = format!(

@@ -19,7 +19,7 @@ pub use markdown::markdown;
 
 pub(super) const TITLE: &str = "A sampling technique for light display, measured";
 /// What the page is, for those who come to it from elsewhere.
-pub(super) const WHAT: &str = "Le Thi Kim Nga and others published “A sampling technique for light display” in 2021, with five figures of results. lampray renders each of them again, once with the paper’s formulas as they are printed and once with weights that are free of bias, many times over with different seeds, so that every number here has a 95 % interval and every sentence of the paper can be held against it.";
+pub(super) const WHAT: &str = "Le Thi Kim Nga, Doan Thi Xuong and Luong Thi Mong Duyen, “A sampling technique for light display”, Quy Nhon University Journal of Science, 2021, has five figures of results. lampray renders each of them again, once with the paper’s formulas as they are printed and once with weights that are free of bias, and takes the noise of every pixel down with it, so that what the paper says can be held against numbers with 95 % intervals.";
 
 const FRAME: &str = include_str!("frame.html");
 

@@ -60,6 +60,20 @@ fn again(figure: &Figure) -> String {
         again.push_str("<h3>Make it again</h3>\n");
         again.push_str(&command(&figure.commands.join("\n")));
     }
+    if !figure.sweeps.is_empty() {
+        let link = |path: &String| {
+            let path = markup(path);
+            let name = path
+                .trim_start_matches("data/")
+                .trim_end_matches("/report.html");
+            format!("<a href=\"{path}\">{name}</a>")
+        };
+        let links: Vec<String> = figure.sweeps.iter().map(link).collect();
+        again.push_str(&format!(
+            "<p class=\"data\">Sweeps: {}</p>\n",
+            links.join(", ")
+        ));
+    }
     if !figure.data.is_empty() {
         let links: Vec<String> = figure
             .data

@@ -65,6 +65,8 @@ viewer.append(bar, stage, moves);
 document.body.append(viewer);
 addEventListener("resize", () => { if (viewer.open) show(at); });
 
+document.querySelector(".pictures figcaption")?.append(" Press a picture to see it large; the arrow keys flip to its neighbours in the very same place.");
+
 for (const picture of document.querySelectorAll(".cell img")) {
   Object.assign(picture, { tabIndex: 0, role: "button", title: "Look at it large; arrow keys flip to its neighbours" });
   picture.addEventListener("click", () => open(picture));

@@ -131,7 +131,7 @@ fn beyond_linear(least: f64, most: f64, room: Room) -> (f64, f64) {
             } else {
                 most
             };
-            let step = step_of((most - least) / 5.0);
+            let step = step_of((most - least) / 12.0);
             let (low, high) = ((least / step).floor() * step, (most / step).ceil() * step);
             (low, high)
         }

@@ -141,7 +141,7 @@ fn needed(plot: &Bars) -> f64 {
     let words = plot.groups.iter().map(|group| {
         let whole = text_width(&group.name, TEXT, false);
         // Two lines or three are well read; more are not.
-        widest_word(&group.name, TEXT).max(whole / 2.2) + 12.0
+        widest_word(&group.name, TEXT).max(whole / 1.9) + 12.0
     });
     let widest = words.fold(bars, f64::max);
     widest * plot.groups.len() as f64
@@ -176,6 +176,10 @@ fn filled(plot: &Bars, axis: &Axis, frame: &Frame) -> Vec<[f64; 2]> {
     let mut filled = Vec::new();
     let base = base(plot, axis);
     for (index, group) in plot.groups.iter().enumerate() {
+        let ticks = group.predicted.iter().zip(stands(plot, index, frame));
+        filled.extend(
+            ticks.filter_map(|(predicted, [left, _])| Some([left, axis.at((*predicted)?)?])),
+        );
         for (bar, [left, right]) in group.bars.iter().zip(stands(plot, index, frame)) {
             let Some(top) = bar.and_then(|bar| axis.clamped(bar.high.max(bar.value))) else {
                 continue;

@@ -14,6 +14,7 @@ const APART: f64 = 18.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Key {
     Dots(usize),
+    Joined(usize),
     Band(usize),
     Dashes(usize),
     Square(usize),
@@ -104,6 +105,9 @@ fn draw_key(canvas: &mut Canvas, key: Key, [x, y]: [f64; 2]) {
     let (left, right) = ([x, y], [x + KEY, y]);
     match key {
         Key::Dots(index) => {
+            canvas.circle(&format!("dot f{}", colour(index)), [x + KEY / 2.0, y], 4.0);
+        }
+        Key::Joined(index) => {
             let index = colour(index);
             canvas.line(&format!("joined s{index}"), left, right);
             canvas.circle(&format!("dot f{index}"), [x + KEY / 2.0, y], 4.0);

@@ -67,7 +67,8 @@ fn entries(plot: &Lines, plan: Plan) -> Vec<Entry<'_>> {
     if !plan.beside {
         entries.extend(named(plot).map(|(_, series)| Entry {
             key: match series.look {
-                Look::Measured => Key::Dots(series.colour),
+                Look::Measured => Key::Joined(series.colour),
+                Look::Dots => Key::Dots(series.colour),
                 Look::Band => Key::Band(series.colour),
                 Look::Predicted => Key::Dashes(series.colour),
             },
@@ -197,7 +198,9 @@ fn fill(canvas: &mut Canvas, plot: &Lines, layout: &Layout) -> f64 {
     for look in [Look::Band, Look::Predicted] {
         of(look).for_each(|series| field.draw_lone(canvas, series));
     }
-    of(Look::Measured).for_each(|series| field.draw_dots(canvas, series));
+    for look in [Look::Measured, Look::Dots] {
+        of(look).for_each(|series| field.draw_dots(canvas, series));
+    }
     frame::name_levels(canvas, &levels, &layout.along);
     for beside in &layout.beside {
         name_line(

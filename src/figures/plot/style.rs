@@ -129,14 +129,14 @@ fn rules(of: impl Fn(Pair) -> String) -> String {
 
 /// What theory says of a series: its colour nearer to the ink, so that dashes show on the line.
 const DEEP: [Pair; 8] = [
-    Pair("#00365a", "#b4dcf8"),
-    Pair("#6b2a00", "#fbd0b2"),
-    Pair("#004633", "#aeecd7"),
-    Pair("#5c2247", "#f6d8ea"),
-    Pair("#4a3800", "#f5e7b3"),
-    Pair("#125275", "#d7effe"),
+    Pair("#00365a", "#9bd0f4"),
+    Pair("#6b2a00", "#f8c09b"),
+    Pair("#004633", "#95e2c9"),
+    Pair("#5c2247", "#f2cbe3"),
+    Pair("#4a3800", "#f0df9f"),
+    Pair("#125275", "#cdeafd"),
     Pair("#24272c", "#e3e6ea"),
-    Pair("#42200f", "#ecd0be"),
+    Pair("#42200f", "#e4bfa8"),
 ];
 
 /// Areas are larger than lines, and need less colour.

@@ -95,6 +95,7 @@ impl Field {
             Look::Measured => format!("joined s{index}"),
             Look::Band => format!("curve s{index}"),
             Look::Predicted => format!("predicted d{index}"),
+            Look::Dots => return,
         };
         canvas.path(&class, &polyline(&self.line(series)));
     }

@@ -9,8 +9,10 @@ use image::{ImageFormat, Rgba, RgbaImage};
 use letters::{Size, draw_lines, wrap};
 use std::io::Cursor;
 
-/// Pictures no wider than this are drawn twice as large.
-pub(super) const SMALL: u32 = 160;
+/// Pictures that are drawn larger fill this at most, side by side and each.
+const MOST_WIDTH: u32 = 1030;
+const MOST_SIDE: u32 = 400;
+const MOST_TIMES: u32 = 4;
 const GAP: u32 = 14;
 const BETWEEN_ROWS: u32 = 20;
 const MOST_NAME: u32 = 170;
@@ -34,9 +36,16 @@ pub(super) fn picture(shown: &Shown) -> Result<Vec<u8>> {
     Ok(bytes.into_inner())
 }
 
-/// Times that a picture is drawn larger.
+/// Times that a picture is drawn larger: small ones, where there is room for them side by side.
 pub(super) fn enlarged(pictures: &Pictures) -> u32 {
-    if widest(pictures) <= SMALL { 2 } else { 1 }
+    let room = (MOST_WIDTH / columns(pictures) as u32).min(MOST_SIDE);
+    (room / widest(pictures)).clamp(1, MOST_TIMES)
+}
+
+/// Pictures of the longest row, or names above them where these are more.
+pub(super) fn columns(pictures: &Pictures) -> usize {
+    let widths = pictures.rows.iter().map(|row| row.cells.len());
+    widths.max().unwrap_or(0).max(pictures.columns.len()).max(1)
 }
 
 /// Width of the widest picture.
