@@ -11,11 +11,12 @@ struct Box {
     id: u32,
     // The box's axes, as rows of the rotation into its own frame.
     axis_x: vec3<f32>,
-    _pad0: u32,
+    // 1 + place among the bodies.
+    body: u32,
     axis_y: vec3<f32>,
-    _pad1: u32,
+    _pad0: u32,
     axis_z: vec3<f32>,
-    _pad2: u32,
+    _pad1: u32,
 }
 
 // Into the box's own axes.

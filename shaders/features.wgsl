@@ -3,12 +3,18 @@
 // #import camera
 // #import ray
 // #import scene
+// #import traversal
 
 struct FeatureJob {
     camera: Camera,
     corner: vec2<u32>,
     size: vec2<u32>,
+    // No lane takes more iterations than this where it counts them.
+    iterations: u32,
 }
+
+// The id where the traversal was left before its end.
+const UNFINISHED: u32 = 0xffffffffu;
 
 struct Feature {
     normal: vec3<f32>,
@@ -22,7 +28,11 @@ struct Feature {
 
 fn feature_at(film: vec2<f32>) -> Feature {
     let ray = Ray(vec3<f32>(0.0), camera_direction(job.camera, film), 0u, false);
+    allow(job.iterations);
     let hit = nearest_hit(ray);
+    if cut_short() {
+        return Feature(vec3<f32>(0.0), 0.0, vec3<f32>(0.0), UNFINISHED);
+    }
     if hit.body == 0u {
         return Feature(vec3<f32>(0.0), 0.0, vec3<f32>(0.0), 0u);
     }

@@ -1,8 +1,9 @@
-// The scene as every kernel that traces it sees it: nearest hit, any hit, and what was hit.
+// The scene as every kernel that traces it sees it, and what was hit of it. What is hit comes from a
+// traversal: `loops` or `bvh`, files with the same functions of which a kernel gets one.
 //
-// The one library that reads bindings: group 0 is the scene. The host prints them, as one uniform
-// buffer where the scene is small and as storage buffers where it is not, with the functions that
-// read them: material_at, sphere_at, box_at and lamp_at. Boxes come with the unrotated ones first.
+// This library and the traversals alone read bindings: group 0 is the scene. The host prints them, as
+// one uniform buffer where the scene is small and as storage buffers where it is not, with the functions
+// that read them: material_at, sphere_at, box_at and lamp_at. Boxes come with the unrotated ones first.
 // A body is a sphere or a box, counted from 1 in that order.
 
 // #import maths
@@ -40,50 +41,6 @@ struct Surface {
 fn rotated_box_crossing(shape: Box, ray: Ray) -> Crossing {
     let from_center = box_local(shape, ray.origin - shape.center);
     return intersect_box(shape.half_size, from_center, safe_inverse(box_local(shape, ray.direction)));
-}
-
-fn nearest_hit(ray: Ray) -> Hit {
-    var best = Hit(3e38, 0u);
-    for (var i = 0u; i < SPHERE_COUNT; i++) {
-        let distance = first_distance(intersect_sphere(sphere_at(i).center, sphere_at(i).radius, ray), ray, i + 1u);
-        let closer = distance > 0.0 && distance < best.distance;
-        best = Hit(select(best.distance, distance, closer), select(best.body, i + 1u, closer));
-    }
-    let inverse = safe_inverse(ray.direction);
-    for (var i = 0u; i < BOX_COUNT; i++) {
-        let body = SPHERE_COUNT + i + 1u;
-        let crossing = intersect_box(box_at(i).half_size, ray.origin - box_at(i).center, inverse);
-        let distance = first_distance(crossing, ray, body);
-        let closer = distance > 0.0 && distance < best.distance;
-        best = Hit(select(best.distance, distance, closer), select(best.body, body, closer));
-    }
-    for (var i = BOX_COUNT; i < BOX_COUNT + ROTATED_BOX_COUNT; i++) {
-        let body = SPHERE_COUNT + i + 1u;
-        let distance = first_distance(rotated_box_crossing(box_at(i), ray), ray, body);
-        let closer = distance > 0.0 && distance < best.distance;
-        best = Hit(select(best.distance, distance, closer), select(best.body, body, closer));
-    }
-    return best;
-}
-
-// Whether anything but the body `target_body` stands nearer than `reach`.
-fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
-    var blocked = false;
-    for (var i = 0u; i < SPHERE_COUNT; i++) {
-        let distance = first_distance(intersect_sphere(sphere_at(i).center, sphere_at(i).radius, ray), ray, i + 1u);
-        blocked = blocked || (distance > 0.0 && distance < reach && i + 1u != target_body);
-    }
-    let inverse = safe_inverse(ray.direction);
-    for (var i = 0u; i < BOX_COUNT; i++) {
-        let crossing = intersect_box(box_at(i).half_size, ray.origin - box_at(i).center, inverse);
-        let distance = first_distance(crossing, ray, SPHERE_COUNT + i + 1u);
-        blocked = blocked || (distance > 0.0 && distance < reach);
-    }
-    for (var i = BOX_COUNT; i < BOX_COUNT + ROTATED_BOX_COUNT; i++) {
-        let distance = first_distance(rotated_box_crossing(box_at(i), ray), ray, SPHERE_COUNT + i + 1u);
-        blocked = blocked || (distance > 0.0 && distance < reach);
-    }
-    return blocked;
 }
 
 fn sphere_surface(index: u32, hit: Hit, ray: Ray) -> Surface {

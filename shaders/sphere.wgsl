@@ -9,8 +9,9 @@ struct Sphere {
     material: u32,
     // 1 + index among the lamps; 0 for a sphere that does not shine.
     lamp: u32,
+    // 1 + place among the bodies.
+    body: u32,
     _pad0: u32,
-    _pad1: u32,
 }
 
 // Distances at which the ray enters and leaves; `met` is false where it passes by.

@@ -6,6 +6,7 @@
 // #import camera
 // #import ray
 // #import scene
+// #import traversal
 // #import scatter
 // #import light
 // #import interruption
@@ -30,7 +31,7 @@ struct Job {
     samples: u32,
     max_bounces: u32,
     interruption_start: u32,
-    // No lane takes more steps than this.
+    // No lane takes more steps than this, nor more iterations where it counts them.
     steps: u32,
 }
 
@@ -259,8 +260,12 @@ fn main(@builtin(global_invocation_id) lane: vec3<u32>) {
     var run = empty_run();
     var count = 0u;
     var path = start_path(pixel, sample_index(0u));
+    allow(job.steps);
     for (var step = 0u; step < job.steps; step++) {
         step_path(&path);
+        if cut_short() {
+            break;
+        }
         if !path.alive {
             add_sample(&run, path);
             count += 1u;

@@ -22,9 +22,10 @@
 //!
 //! | room | what lives there |
 //! |---|---|
-//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` alone reads group 0) |
+//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops` and `bvh` alone read group 0) |
 //! | [`knobs`] | the one table of knobs, the presets, the typed settings |
 //! | [`scene`] | the scene's types, the TOML parser with places, the checks |
+//! | [`bvh`] | bodies' bounds as a tree that is walked without a stack |
 //! | [`pack`] | a scene as `#[repr(C)]` buffers and a strategy of override constants |
 //! | [`shader`] | joins the WGSL files, prints constants from the Rust enums, parses and validates |
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
@@ -50,7 +51,7 @@
 //!    key with a dimension (vertex, slot) into four numbers. There is no other state: crops, sample
 //!    ranges and splits draw the same numbers.
 //! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
-//!    hit (`scene`, `sphere`, `box`), emission, one shadow ray to each lamp (`light`), the
+//!    hit (`loops` or `bvh`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`), the
 //!    interruption test (`interruption`), the next direction (`scatter`).
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
@@ -67,12 +68,16 @@
 //! - **A metric**: a name in [`compare::Metric`] with its definition; of linear light in
 //!   `compare/survey.rs`, of what a screen shows in a file of its own; its value by hand or from
 //!   another program in the tests.
+//! - **A way to find bodies**: a name in [`knobs::RenderKernel`] and [`pack::Traversal`]; a file beside
+//!   `loops.wgsl` and `bvh.wgsl` with the same functions, which `shader/join.rs` puts where `traversal` is
+//!   imported; its twin behind [`cpu::scene::Traversal`]. `tests/bvh` holds that pictures stay the same bits.
 //! - **A kernel**: a file in `shaders/`, a name in [`shader::Kernel`] and in `shader/library.rs`.
 
 #![forbid(unsafe_code)]
 
 pub mod analysis;
 pub mod bench;
+pub mod bvh;
 pub mod calibrate;
 pub mod cli;
 pub mod compare;

@@ -6,6 +6,7 @@
 //! | `bodies`, `lobe` | a lone body under an even sky: rho L, less what a lobe loses below the surface |
 //! | `concentric` | two concentric spheres: partial sums of a two-by-two matrix |
 //! | `lamp` | a sphere over a face, also cut by the horizon: rho L F |
+//! | `crowd` | many balls before a light, which are a tree: rho L (F - f) |
 //! | `shade` | a ball that shades a floor from an even sky |
 //! | `panel` | a box over a floor: the parallel rectangle, and any box by Lambert's polygon sum |
 //! | `pinhole` | the ellipse that a sphere is in a picture |
@@ -31,6 +32,7 @@ mod closed_forms {
     mod bodies;
     mod concentric;
     mod cross;
+    mod crowd;
     mod enclosure;
     mod lamp;
     mod literal;

@@ -97,7 +97,8 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 center,
                 radius,
                 material,
-                lamp
+                lamp,
+                body
             }),
         ),
         (
@@ -107,6 +108,7 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 material,
                 half_size,
                 id,
+                body,
                 axis_x,
                 axis_y,
                 axis_z
@@ -156,7 +158,8 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
             layout!(FeatureJob {
                 camera,
                 corner,
-                size
+                size,
+                iterations
             }),
         ),
         (
@@ -213,6 +216,17 @@ fn arrays(length: usize) -> SceneArrays {
         spheres: length,
         boxes: length,
         lamps: length,
+        ..SceneArrays::default()
+    }
+}
+
+/// The same with a tree over the bodies.
+fn with_tree(length: usize) -> SceneArrays {
+    SceneArrays {
+        nodes: 2 * length,
+        outside_spheres: length.min(16),
+        outside_boxes: length.min(16),
+        ..arrays(length)
     }
 }
 
@@ -280,7 +294,7 @@ fn structs_are_laid_out_alike() {
     let rust = rust_layouts();
     let mut seen = BTreeSet::new();
     for &kernel in Kernel::ALL {
-        for arrays in [arrays(1), arrays(100_000)] {
+        for arrays in [arrays(1), arrays(100_000), with_tree(1), with_tree(100_000)] {
             let module = module(kernel, arrays);
             for (kind, stride) in bound_structs(&module) {
                 let name = kind.name.clone().unwrap();
@@ -306,7 +320,7 @@ fn packed_offsets(arrays: SceneArrays) -> Vec<(usize, usize)> {
         next += array.length * array.stride;
         (start, array.length)
     };
-    arrays.list().iter().map(place).collect()
+    arrays.uniform().iter().map(place).collect()
 }
 
 /// Offset and length of each array of the printed struct.
@@ -335,10 +349,19 @@ fn a_scene_in_one_buffer_lies_as_it_is_uploaded() {
             spheres,
             boxes,
             lamps,
+            ..SceneArrays::default()
         };
-        for kernel in [Kernel::Trace, Kernel::Features] {
-            let printed = printed_offsets(&module(kernel, arrays));
-            assert_eq!(printed, packed_offsets(arrays), "{kernel} {lengths:?}");
+        let with_tree = SceneArrays {
+            nodes: 100,
+            outside_spheres: lamps,
+            outside_boxes: materials,
+            ..arrays
+        };
+        for arrays in [arrays, with_tree] {
+            for kernel in [Kernel::Trace, Kernel::Features] {
+                let printed = printed_offsets(&module(kernel, arrays));
+                assert_eq!(printed, packed_offsets(arrays), "{kernel} {lengths:?}");
+            }
         }
         let swapped = SceneArrays {
             boxes: boxes + 1,
@@ -357,8 +380,8 @@ struct Swapped {
     radius: f32,
     lamp: u32,
     material: u32,
+    body: u32,
     _pad0: u32,
-    _pad1: u32,
 }
 
 /// [`Sphere`] with a field of the right size and the wrong kind.
@@ -368,8 +391,8 @@ struct Retyped {
     radius: u32,
     material: u32,
     lamp: u32,
+    body: u32,
     _pad0: u32,
-    _pad1: u32,
 }
 
 /// [`Sphere`] without its padding.
@@ -379,6 +402,7 @@ struct Short {
     radius: f32,
     material: u32,
     lamp: u32,
+    body: u32,
 }
 
 #[test]
@@ -394,7 +418,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -403,7 +428,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -412,7 +438,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -421,7 +448,8 @@ fn a_wrong_layout_is_caught() {
             center,
             radius,
             material,
-            lamp
+            lamp,
+            body
         }),
         right
     );
@@ -479,7 +507,13 @@ fn bindings_match_the_tables() {
         ..arrays(2)
     };
     for &kernel in Kernel::ALL {
-        for arrays in [arrays(1), arrays(100_000), mixed] {
+        for arrays in [
+            arrays(1),
+            arrays(100_000),
+            mixed,
+            with_tree(1),
+            with_tree(100_000),
+        ] {
             let shader = declared(&module(kernel, arrays));
             assert_eq!(shader, tabled(kernel, arrays), "{kernel} {arrays:?}");
         }

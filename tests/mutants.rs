@@ -167,8 +167,20 @@ fn every_patched_shader_compiles() {
         spheres: 4,
         boxes: 4,
         lamps: 2,
+        ..SceneArrays::default()
+    };
+    let with_tree = SceneArrays {
+        nodes: 100,
+        outside_spheres: 1,
+        outside_boxes: 1,
+        ..arrays
     };
     for patch in patches() {
+        let by_tree = patch
+            .files
+            .iter()
+            .any(|file| file.path == "shaders/bvh.wgsl");
+        let arrays = if by_tree { with_tree } else { arrays };
         let mut joined = shader::source(Kernel::Trace, arrays).unwrap();
         for file in &patch.files {
             if file.path.starts_with("shaders/") {

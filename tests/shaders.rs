@@ -17,13 +17,25 @@ fn arrays(materials: usize, spheres: usize, boxes: usize, lamps: usize) -> Scene
         spheres,
         boxes,
         lamps,
+        ..SceneArrays::default()
     }
 }
 
-/// Array lengths: the smallest, all uniform, all storage, and each mixed with the others.
+/// The same with a tree over the bodies.
+fn with_tree(arrays: SceneArrays) -> SceneArrays {
+    SceneArrays {
+        nodes: 1000,
+        outside_spheres: 2,
+        outside_boxes: 7,
+        ..arrays
+    }
+}
+
+/// Array lengths: the smallest, all uniform, all storage, and each mixed with the others; and the
+/// same by a tree.
 fn array_sets() -> Vec<SceneArrays> {
     let large = 100_000;
-    vec![
+    let sets = [
         arrays(1, 1, 1, 1),
         arrays(4, 4, 8, 1),
         arrays(large, large, large, large),
@@ -31,7 +43,8 @@ fn array_sets() -> Vec<SceneArrays> {
         arrays(2, 2, large, 2),
         arrays(large, 2, 2, 2),
         arrays(2, large, 2, large),
-    ]
+    ];
+    sets.into_iter().chain(sets.map(with_tree)).collect()
 }
 
 /// How many values each knob of a strategy has, in the order that [`spelled`] reads them.
@@ -154,14 +167,19 @@ fn the_covering_set_has_every_pair_of_values() {
 #[test]
 fn every_kernel_is_valid_with_every_strategy() {
     let rows = covering_rows();
-    for &kernel in Kernel::ALL {
-        let (module, info) = module(kernel, arrays(4, 4, 8, 1));
+    let by_loops = arrays(4, 4, 8, 1);
+    let kernels = Kernel::ALL.iter().map(|kernel| (*kernel, by_loops));
+    for (kernel, arrays) in kernels.chain([(Kernel::Trace, with_tree(by_loops))]) {
+        let (module, info) = module(kernel, arrays);
         for row in &rows {
             let strategy = Strategy {
                 sphere_count: 3,
                 box_count: 5,
                 rotated_box_count: 2,
                 lamp_count: 1,
+                outside_sphere_count: 1,
+                outside_box_count: 3,
+                outside_rotated_count: 2,
                 ..spelled(row)
             };
             let resolved = resolve(&module, &info, &constants(&module, &strategy));
@@ -190,6 +208,9 @@ fn every_kernel_is_valid_with_every_kind_of_scene_array() {
                     box_count,
                     rotated_box_count,
                     lamp_count,
+                    outside_sphere_count: sphere_count.min(2),
+                    outside_box_count: box_count,
+                    outside_rotated_count: rotated_box_count.min(2),
                     ..support::strategy()
                 };
                 let resolved = resolve(&module, &info, &constants(&module, &strategy));
@@ -217,8 +238,10 @@ fn constants_that_are_missing_or_unknown_or_unfit_are_refused() {
 #[test]
 fn strategies_and_shaders_name_the_same_overrides() {
     let mut declared = BTreeSet::new();
-    for &kernel in Kernel::ALL {
-        let (module, _) = module(kernel, arrays(1, 1, 1, 1));
+    let smallest = arrays(1, 1, 1, 1);
+    let kernels = Kernel::ALL.iter().map(|kernel| (*kernel, smallest));
+    for (kernel, arrays) in kernels.chain([(Kernel::Trace, with_tree(smallest))]) {
+        let (module, _) = module(kernel, arrays);
         for (_, constant) in module.overrides.iter() {
             let name = constant.name.clone().unwrap();
             let kind = &module.types[constant.ty].inner;
@@ -282,4 +305,23 @@ fn enums_have_the_same_numbers_on_both_sides() {
     // One number wrong would show.
     wanted.insert("LIGHT_SAMPLER_CONE".into(), 2);
     assert_ne!(shader_constants(), wanted);
+}
+
+/// Eight storage buffers are what every WebGPU device has for a stage, and one uniform buffer is what
+/// lavapipe 22.3 bears beside the job's.
+#[test]
+fn no_kernel_binds_more_than_devices_have() {
+    for arrays in array_sets() {
+        let (module, _) = module(Kernel::Trace, arrays);
+        let count = |wanted: fn(&naga::AddressSpace) -> bool| {
+            let all = module.global_variables.iter();
+            all.filter(|(_, global)| wanted(&global.space)).count()
+        };
+        let storage = count(|space| matches!(space, naga::AddressSpace::Storage { .. }));
+        let uniform = count(|space| *space == naga::AddressSpace::Uniform);
+        assert!(
+            storage <= 8 && uniform <= 2,
+            "{arrays:?}: {storage}, {uniform}"
+        );
+    }
 }

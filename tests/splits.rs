@@ -75,9 +75,29 @@ fn room(assignments: &[&str]) -> Scene {
     Scene::parse("room.toml", ROOM, &assignments).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The scenes that are split: without and with a filter, rules and weights of the other kind.
-fn rooms() -> [Scene; 2] {
-    [room(&[]), room(&["render.preset=montelight"])]
+/// The scenes that are split: without and with a filter, rules and weights of the other kind; and by a
+/// tree, over enough small balls that there is one.
+fn rooms() -> [Scene; 3] {
+    let balls = balls(100, "gloss");
+    let crowded = ROOM.to_string() + &balls;
+    let by_tree = [Assignment::parse("render.kernel=bvh").unwrap()];
+    let crowded = Scene::parse("crowded.toml", &crowded, &by_tree);
+    [
+        room(&[]),
+        room(&["render.preset=montelight"]),
+        crowded.unwrap_or_else(|e| panic!("{e}")),
+    ]
+}
+
+/// Small balls in rows along the room's floor.
+fn balls(count: usize, material: &str) -> String {
+    let ball = |i: usize| {
+        let (x, z) = (0.3 * (i % 10) as f64 - 1.4, 0.2 * (i / 10) as f64 - 0.9);
+        format!(
+            "[[spheres]]\ncenter = [{x}, 0.06, {z}]\nradius = 0.05\nmaterial = \"{material}\"\n"
+        )
+    };
+    (0..count).map(ball).collect()
 }
 
 fn rect(x0: u32, y0: u32, x1: u32, y1: u32) -> Rect {
@@ -343,10 +363,11 @@ fn threads_do_not_matter_to_the_twin() {
 
 #[test]
 fn a_second_load_of_a_scene_changes_nothing() {
-    let [one, two] = rooms();
+    let [one, two, three] = rooms();
     let check = |device: &mut dyn Device| {
         let before = take(device, &task(&one));
         take(device, &task(&two));
+        take(device, &task(&three));
         assert_eq!(take(device, &task(&one)), before);
     };
     check(&mut Cpu::new());

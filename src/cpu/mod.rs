@@ -3,10 +3,12 @@
 //! is what the shaders are checked against.
 
 pub mod r#box;
+pub mod bvh;
 pub mod camera;
 pub mod four;
 pub mod interruption;
 pub mod light;
+pub mod loops;
 pub mod maths;
 pub mod points;
 pub mod random;
@@ -18,10 +20,19 @@ pub mod trace;
 
 use crate::device::{Device, DeviceInfo, DeviceKind, runs};
 use crate::error::{Error, Result};
-use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally};
-use four::Bodies;
+use crate::pack::{Draw, Feature, Hierarchy, Packed, PointsJob, Rect, Strategy, Tally};
+use bvh::ByTree;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
+use scene::Traversal;
+use std::sync::Arc;
+
+/// What a scene's rays are traced among.
+#[derive(Debug)]
+enum Bodies {
+    Four(four::Bodies),
+    Tree(Arc<Hierarchy>),
+}
 
 /// The built-in CPU renderer; it uses all cores.
 #[derive(Debug)]
@@ -82,15 +93,32 @@ impl Device for Cpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
-        self.scene = Some((scene.clone(), Bodies::new(scene)));
+        let bodies = match &scene.hierarchy {
+            Some(hierarchy) => Bodies::Tree(hierarchy.clone()),
+            None => Bodies::Four(four::Bodies::new(scene)),
+        };
+        self.scene = Some((scene.clone(), bodies));
         Ok(())
     }
 
     fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
         let (scene, bodies) = self.scene()?;
         let job = scene.job(rect, first_sample, samples);
-        let tracer = trace::Tracer::new(scene, bodies, &job);
-        let by_pixel: Vec<Vec<Tally>> = pixels(rect).map(|pixel| traced(&tracer, pixel)).collect();
+        let by_pixel: Vec<Vec<Tally>> = match bodies {
+            Bodies::Four(four) => {
+                let tracer = trace::Tracer::new(scene, four, &job);
+                pixels(rect)
+                    .map(|pixel| traced_by_loops(&tracer, pixel))
+                    .collect()
+            }
+            Bodies::Tree(hierarchy) => {
+                let tree = ByTree { scene, hierarchy };
+                let tracer = trace::Tracer::new(scene, &tree, &job);
+                pixels(rect)
+                    .map(|pixel| traced_by_tree(&tracer, pixel))
+                    .collect()
+            }
+        };
         let runs = runs(first_sample, samples) as usize;
         Ok((0..runs)
             .flat_map(|run| by_pixel.iter().map(move |tallies| tallies[run]))
@@ -99,9 +127,11 @@ impl Device for Cpu {
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
         let (scene, bodies) = self.scene()?;
-        Ok(pixels(rect)
-            .map(|pixel| feature_at(scene, bodies, pixel))
-            .collect())
+        let feature = |pixel| match bodies {
+            Bodies::Four(four) => feature_at(scene, four, pixel),
+            Bodies::Tree(hierarchy) => feature_at(scene, &ByTree { scene, hierarchy }, pixel),
+        };
+        Ok(pixels(rect).map(feature).collect())
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {
@@ -112,12 +142,18 @@ impl Device for Cpu {
 
 /// Compiled for newer processors too, and chosen when the program runs.
 #[multiversion::multiversion(targets("x86_64+sse4.2+avx+avx2+bmi2"))]
-fn traced(tracer: &trace::Tracer, pixel: [u32; 2]) -> Vec<Tally> {
+fn traced_by_loops(tracer: &trace::Tracer<four::Bodies>, pixel: [u32; 2]) -> Vec<Tally> {
+    tracer.pixel(pixel)
+}
+
+/// As [`traced_by_loops`].
+#[multiversion::multiversion(targets("x86_64+sse4.2+avx+avx2+bmi2"))]
+fn traced_by_tree(tracer: &trace::Tracer<ByTree<'_>>, pixel: [u32; 2]) -> Vec<Tally> {
     tracer.pixel(pixel)
 }
 
 /// Twin of `shaders/features.wgsl`.
-fn feature_at(scene: &Packed, bodies: &Bodies, pixel: [u32; 2]) -> Feature {
+fn feature_at(scene: &Packed, bodies: &impl Traversal, pixel: [u32; 2]) -> Feature {
     let film = Vec2::new(pixel[0] as f32, pixel[1] as f32) + 0.5;
     let direction = camera::camera_direction(&scene.camera, film);
     let ray = ray::Ray {
@@ -126,7 +162,7 @@ fn feature_at(scene: &Packed, bodies: &Bodies, pixel: [u32; 2]) -> Feature {
         source: 0,
         inside: false,
     };
-    let hit = scene::nearest_hit(bodies, &ray);
+    let hit = bodies.nearest_hit(&ray);
     if hit.body == 0 {
         return Feature::default();
     }

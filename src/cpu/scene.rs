@@ -1,11 +1,10 @@
-//! Twin of `shaders/scene.wgsl`: nearest hit, any hit, and what was hit.
+//! Twin of `shaders/scene.wgsl`: what was hit, and what every traversal is.
 
-use super::r#box::{box_face, box_local, box_world};
-use super::four::{Bodies, FourRay};
-use super::ray::Ray;
+use super::r#box::{box_face, box_local, box_world, intersect_box, safe_inverse};
+use super::ray::{Crossing, Ray};
 use super::sphere::sphere_normal;
-use crate::pack::Packed;
-use glam::{Vec3, Vec4};
+use crate::pack::{Cuboid, Packed};
+use glam::Vec3;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
@@ -29,47 +28,18 @@ pub struct Surface {
     pub id: u32,
 }
 
-#[inline(always)]
-pub fn nearest_hit(bodies: &Bodies, ray: &Ray) -> Hit {
-    let mut distance = Vec4::splat(3e38);
-    let mut body = Vec4::ZERO;
-    bodies.visit(&FourRay::new(ray), |found, numbers| {
-        let closer = found.cmpgt(Vec4::ZERO) & found.cmplt(distance);
-        distance = Vec4::select(closer, found, distance);
-        body = Vec4::select(closer, numbers, body);
-        false
-    });
-    first_of_four(distance, body)
+/// How rays find bodies.
+pub trait Traversal {
+    fn nearest_hit(&self, ray: &Ray) -> Hit;
+
+    /// Whether anything but the body `target_body` stands nearer than `reach`.
+    fn occluded(&self, ray: &Ray, reach: f32, target_body: u32) -> bool;
 }
 
-/// The nearest of four hits; of equal ones that of the first body, as one after the other finds it.
-#[inline(always)]
-fn first_of_four(distance: Vec4, body: Vec4) -> Hit {
-    let (distance, body) = (distance.to_array(), body.to_array());
-    let mut best = 0;
-    for lane in 1..4 {
-        let tie = distance[lane] == distance[best] && body[lane] < body[best];
-        if distance[lane] < distance[best] || tie {
-            best = lane;
-        }
-    }
-    Hit {
-        distance: distance[best],
-        body: body[best] as u32,
-    }
-}
-
-/// Whether anything but the body `target_body` stands nearer than `reach`.
-#[inline(always)]
-pub fn occluded(bodies: &Bodies, ray: &Ray, reach: f32, target_body: u32) -> bool {
-    let (reach, target) = (Vec4::splat(reach), Vec4::splat(target_body as f32));
-    let mut blocked = false;
-    bodies.visit(&FourRay::new(ray), |found, numbers| {
-        let near = found.cmpgt(Vec4::ZERO) & found.cmplt(reach);
-        blocked = (near & !numbers.cmpeq(target)).any();
-        blocked
-    });
-    blocked
+pub fn rotated_box_crossing(shape: &Cuboid, ray: &Ray) -> Crossing {
+    let from_center = box_local(shape, ray.origin - Vec3::from(shape.center));
+    let inverse = safe_inverse(box_local(shape, ray.direction));
+    intersect_box(shape.half_size.into(), from_center, inverse)
 }
 
 #[inline(always)]

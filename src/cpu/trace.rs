@@ -1,14 +1,13 @@
 //! Twin of `shaders/trace.wgsl`: the vertices of a pixel's paths, one after the other.
 
 use super::camera::{camera_direction, sample_film};
-use super::four::Bodies;
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
 use super::maths::{Basis, greater, largest};
 use super::random::{random_key, random_unit};
 use super::ray::{Ray, offset_origin};
 use super::scatter::*;
-use super::scene::{Surface, nearest_hit, occluded, surface_at};
+use super::scene::{Surface, Traversal, surface_at};
 use crate::knobs::*;
 use crate::pack::{Job, LastRay, Packed, RUN_LENGTH, Tally};
 use glam::{Vec2, Vec3, Vec4};
@@ -30,15 +29,15 @@ struct Path {
 
 /// A scene and a dispatch: what the kernel has in its bindings.
 #[derive(Clone, Copy, Debug)]
-pub struct Tracer<'a> {
+pub struct Tracer<'a, T> {
     scene: &'a Packed,
-    bodies: &'a Bodies,
+    bodies: &'a T,
     job: &'a Job,
     pole: Basis,
 }
 
-impl<'a> Tracer<'a> {
-    pub fn new(scene: &'a Packed, bodies: &'a Bodies, job: &'a Job) -> Self {
+impl<'a, T: Traversal> Tracer<'a, T> {
+    pub fn new(scene: &'a Packed, bodies: &'a T, job: &'a Job) -> Self {
         let pole = Basis {
             x: job.pole.x.into(),
             y: job.pole.y.into(),
@@ -171,7 +170,7 @@ impl<'a> Tracer<'a> {
             source: surface.body,
             inside: surface.inside,
         };
-        let blocked = occluded(self.bodies, &shadow, light.distance, lamp.body);
+        let blocked = self.bodies.occluded(&shadow, light.distance, lamp.body);
         (if blocked { Vec3::ZERO } else { value }, 1)
     }
 
@@ -264,7 +263,7 @@ impl<'a> Tracer<'a> {
 
     #[inline(always)]
     fn step_path(&self, path: &mut Path) {
-        let hit = nearest_hit(self.bodies, &path.ray);
+        let hit = self.bodies.nearest_hit(&path.ray);
         path.rays += 1;
         if hit.body == 0 {
             if self.emission_counts(path) {

@@ -18,6 +18,9 @@ pub struct Record {
     pub preset: String,
     /// Every knob with its value, by path, as [`crate::scene::Scene::knobs`] has them.
     pub knobs: Map<String, Value>,
+    /// What `render.kernel` came to: `general` or `bvh`; empty in records older than the knob.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub kernel: String,
     pub device: DeviceInfo,
     /// Every device of a picture that was merged from several; absent for one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -8,11 +8,14 @@ use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::panics::catch;
-use crate::shader::{Kernel, SceneArrays};
+use crate::shader::{Kernel, SceneArray, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
+
+/// The id of a feature whose ray was left before its end.
+const UNFINISHED: u32 = u32::MAX;
 
 /// The buffers that results come back in; they grow with the largest block so far.
 #[derive(Debug)]
@@ -89,6 +92,7 @@ impl Gpu {
             spheres: 1,
             boxes: 1,
             lamps: 1,
+            ..SceneArrays::default()
         };
         let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays.unwrap_or(none))?;
         let pipeline = Arc::new(pipeline);
@@ -166,27 +170,66 @@ impl Gpu {
             .ok_or_else(|| Error::Internal("no scene is loaded".into()))
     }
 
-    /// Traces samples in one dispatch whose lanes take at most `steps` steps.
-    fn trace_piece(
-        &mut self,
-        rect: Rect,
-        first_sample: u64,
-        samples: u32,
-        steps: u32,
-    ) -> Result<Vec<Tally>> {
+    /// Traces samples in one dispatch. Lanes that take too many steps write no tallies.
+    fn trace_piece(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
         let loaded = self.scene()?;
         let mut job = loaded.packed.job(rect, first_sample, samples);
-        job.steps = job.steps.min(steps);
+        job.steps = loaded.allowance.steps(job.steps, rect);
         let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
         let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
         let count = rect.area() * runs(first_sample, samples) as usize;
         let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        let tallies: Vec<Tally> = self.dispatch(&pipeline, true, &inputs, tiles(rect), count)?;
-        // Every sample takes a ray: a tally without one was never written.
-        match tallies.iter().all(|tally| tally.rays > 0) {
-            true => Ok(tallies),
-            false => Err(self.cut_short("a path took too many steps")),
+        self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
+    }
+
+    /// Traces again what lanes left undone, pixels without tallies: first each alone, where it may take
+    /// as many iterations as a group of lanes otherwise, then in halves. A run is broken only where it
+    /// is too long for a lane alone, so that the picture does not depend on how the work was split.
+    fn mend(
+        &mut self,
+        rect: Rect,
+        first_sample: u64,
+        samples: u32,
+        mut tallies: Vec<Tally>,
+    ) -> Result<Vec<Tally>> {
+        let area = rect.area();
+        for pixel in 0..area {
+            // Every sample takes a ray: a tally without one was never written.
+            let mut of_pixel = tallies.iter().skip(pixel).step_by(area);
+            if of_pixel.all(|tally| tally.rays > 0) {
+                continue;
+            }
+            let alone = area == 1;
+            if self.scene()?.packed.hierarchy.is_none() || (alone && samples == 1) {
+                return Err(self.cut_short("a path took too many steps"));
+            }
+            let most = if alone {
+                samples.next_power_of_two() / 2
+            } else {
+                1 << 31
+            };
+            let whole = self.trace_in_pieces(rect.pixel(pixel), first_sample, samples, most)?;
+            for (run, tally) in whole.into_iter().enumerate() {
+                tallies[run * area + pixel] = tally;
+            }
         }
+        Ok(tallies)
+    }
+
+    fn trace_in_pieces(
+        &mut self,
+        rect: Rect,
+        first_sample: u64,
+        samples: u32,
+        most: u32,
+    ) -> Result<Vec<Tally>> {
+        let mut gathered = Gathered::new(rect.area());
+        for (first, count) in pieces(first_sample, samples, most) {
+            let tallies = self.trace_piece(rect, first, count)?;
+            let tallies = self.mend(rect, first, count, tallies)?;
+            gathered.add(first, count, &tallies);
+        }
+        Ok(gathered.tallies)
     }
 
     fn cut_short(&self, what: &str) -> Error {
@@ -227,6 +270,23 @@ fn padded<T: Pod + Zeroable>(items: &[T], length: usize) -> Vec<u8> {
     bytes
 }
 
+/// The bytes of one of a scene's arrays.
+fn array_bytes(array: &SceneArray, scene: &Packed) -> Vec<u8> {
+    let length = array.length;
+    let hierarchy = scene.hierarchy.as_deref();
+    match (array.name, hierarchy) {
+        ("material_at", _) => padded(&scene.materials, length),
+        ("sphere_at", _) => padded(&scene.spheres, length),
+        ("box_at", _) => padded(&scene.boxes, length),
+        ("lamp_at", _) => padded(&scene.lamps, length),
+        ("outside_sphere_at", Some(all)) => padded(&all.spheres, length),
+        ("outside_box_at", Some(all)) => padded(&all.boxes, length),
+        ("node_at", Some(all)) => padded(&all.tree.nodes, length),
+        ("node_body_at", Some(all)) => padded(&all.tree.bodies, length),
+        (name, _) => unreachable!("no array is called {name}"),
+    }
+}
+
 /// Groups of 8 x 8 lanes over a rectangle.
 fn tiles(rect: Rect) -> [u32; 2] {
     [rect.width().div_ceil(8), rect.height().div_ceil(8)]
@@ -238,26 +298,21 @@ impl Device for Gpu {
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {
-        let allowance = Allowance::new(self.info.kind, scene).ok_or_else(|| {
+        let allowance = Allowance::new(&self.info, scene).ok_or_else(|| {
             let bodies = scene.spheres.len() + scene.boxes.len();
             self.cut_short(&format!("{bodies} bodies are more than it goes through"))
         })?;
         let arrays = SceneArrays::new(scene);
-        let bytes = [
-            padded(&scene.materials, arrays.materials),
-            padded(&scene.spheres, arrays.spheres),
-            padded(&scene.boxes, arrays.boxes),
-            padded(&scene.lamps, arrays.lamps),
-        ];
         let guard = &self.guard;
-        let buffers = if arrays.is_uniform() {
-            vec![guard.filled(&bytes.concat(), wgpu::BufferUsages::UNIFORM)?]
-        } else {
-            let filled = bytes
-                .iter()
-                .map(|bytes| guard.filled(bytes, wgpu::BufferUsages::STORAGE));
-            filled.collect::<Result<_>>()?
-        };
+        let bytes = |array: &SceneArray| array_bytes(array, scene);
+        let uniform: Vec<u8> = arrays.uniform().iter().flat_map(bytes).collect();
+        let mut buffers = Vec::new();
+        if !uniform.is_empty() {
+            buffers.push(guard.filled(&uniform, wgpu::BufferUsages::UNIFORM)?);
+        }
+        for array in arrays.storage() {
+            buffers.push(guard.filled(&bytes(&array), wgpu::BufferUsages::STORAGE)?);
+        }
         self.loaded = Some(Loaded {
             packed: scene.clone(),
             allowance,
@@ -279,13 +334,8 @@ impl Device for Gpu {
     }
 
     fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let allowance = self.scene()?.allowance;
-        let mut gathered = Gathered::new(rect.area());
-        for (first, count) in pieces(first_sample, samples, allowance.samples) {
-            let tallies = self.trace_piece(rect, first, count, allowance.steps)?;
-            gathered.add(first, count, &tallies);
-        }
-        Ok(gathered.tallies)
+        let most = self.scene()?.allowance.samples;
+        self.trace_in_pieces(rect, first_sample, samples, most)
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
@@ -294,11 +344,18 @@ impl Device for Gpu {
             camera: loaded.packed.camera,
             corner: [rect.x0, rect.y0],
             size: [rect.width(), rect.height()],
+            iterations: loaded.allowance.iterations,
+            ..FeatureJob::default()
         };
         let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
         let pipeline = self.pipeline(Kernel::Features, &strategy, Some(arrays))?;
         let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        self.dispatch(&pipeline, true, &inputs, tiles(rect), rect.area())
+        let features: Vec<Feature> =
+            self.dispatch(&pipeline, true, &inputs, tiles(rect), rect.area())?;
+        match features.iter().all(|feature| feature.id != UNFINISHED) {
+            true => Ok(features),
+            false => Err(self.cut_short("a ray met too many bodies' bounds")),
+        }
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {

@@ -1,13 +1,29 @@
-//! Mesa's software drivers leave every loop of an invocation, without a word, once its loops
-//! together have taken 65,535 iterations (`LP_MAX_TGSI_LOOP_ITERATIONS`; so with 22.3.6). There a
-//! pixel's samples come in pieces that stay below that, whatever their paths do.
+//! Mesa's software drivers used to leave every loop of an invocation, without a word, once its loops
+//! together had taken 65,535 iterations (`LP_MAX_TGSI_LOOP_ITERATIONS`; so with 22.3.6, no more with
+//! 25.0.7, where `tests/splits` traces several times as many). There a
+//! pixel's samples come in pieces that stay below that. Where rays try every body, a piece stays below it
+//! whatever its paths do. In a tree they could visit every node, but never do: there each lane counts,
+//! and stops without a tally at its share of the iterations; what it left is traced again in smaller pieces.
 
-use crate::device::{DeviceKind, run_ranges};
+use crate::device::{DeviceInfo, DeviceKind, run_ranges};
 use crate::knobs::LightStrategy;
-use crate::pack::{Packed, RUN_LENGTH, Tally};
+use crate::pack::{Packed, RUN_LENGTH, Rect, Tally};
 
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
+/// Lanes that a software driver runs in step, 32 bits each in its widest vectors: their loops go on
+/// until the last is done, so that together they may take no more than one may.
+const LANES: u64 = 8;
+
+/// The first major version of Mesa that was found to let loops go on.
+const FREE_MESA: u32 = 25;
+
+/// Whether a driver leaves loops that take long. Of software drivers other than Mesa's nothing is known.
+fn stops_early(device: &DeviceInfo) -> bool {
+    let version = device.driver.split_once("Mesa ").map(|(_, text)| text);
+    let major = version.and_then(|text| text.split('.').next()?.parse::<u32>().ok());
+    device.kind == DeviceKind::Software && major.is_none_or(|major| major < FREE_MESA)
+}
 
 /// How much of a pixel one dispatch may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,22 +32,66 @@ pub struct Allowance {
     pub steps: u32,
     /// Samples: a power of two.
     pub samples: u32,
+    /// Whether lanes count the iterations of their loops.
+    counted: bool,
+    /// Iterations of a lane that counts them, and of one that is alone in its group.
+    pub iterations: u32,
+    alone: u32,
 }
 
 impl Allowance {
     /// None where a device cannot take a single step of the scene.
-    pub fn new(kind: DeviceKind, scene: &Packed) -> Option<Self> {
-        if kind != DeviceKind::Software {
+    pub fn new(device: &DeviceInfo, scene: &Packed) -> Option<Self> {
+        if !stops_early(device) {
             return Some(Self {
                 steps: u32::MAX,
                 samples: 1 << 31,
+                counted: scene.hierarchy.is_some(),
+                iterations: u32::MAX,
+                alone: u32::MAX,
             });
+        }
+        if scene.hierarchy.is_some() {
+            return Self::in_tree(scene);
         }
         let steps = SOFTWARE_ITERATIONS / iterations(scene);
         let samples = (steps / (u64::from(scene.max_bounces) + 1)).max(1);
         (steps > 0).then_some(Self {
             steps: steps as u32,
             samples: 1 << samples.ilog2(),
+            counted: false,
+            iterations: u32::MAX,
+            alone: u32::MAX,
+        })
+    }
+
+    /// The steps, or iterations, of a lane whose samples take at most `steps` steps.
+    pub fn steps(&self, steps: u32, rect: Rect) -> u32 {
+        match (self.counted, rect.area()) {
+            (false, _) => steps.min(self.steps),
+            (true, 1) => self.alone,
+            (true, _) => self.iterations,
+        }
+    }
+
+    /// On a software driver, where lanes count their iterations.
+    fn in_tree(scene: &Packed) -> Option<Self> {
+        let lamps = scene.lamps.len() as u64;
+        // A lane that stops finishes its step: one more look at each lamp.
+        let last_step = lamps + 64;
+        let iterations = (SOFTWARE_ITERATIONS / LANES).checked_sub(last_step)?;
+        // A guess at the iterations of a ray: few of the rays that a path may take are taken, and few
+        // pieces have to be traced again.
+        let tree = &scene.hierarchy.as_ref()?.tree;
+        let of_ray = tree.outside.len() as u64 + 4 + 3 * u64::from(tree.nodes.len().ilog2()) / 2;
+        let rays = (u64::from(scene.max_bounces) + 1).min(9) * (1 + lamps);
+        let samples = (iterations / (of_ray * rays)).clamp(1, u64::from(RUN_LENGTH));
+        Some(Self {
+            steps: u32::MAX,
+            samples: 1 << samples.ilog2(),
+            counted: true,
+            iterations: iterations as u32,
+            alone: (SOFTWARE_ITERATIONS - last_step) as u32,
         })
     }
 }
@@ -133,6 +193,25 @@ mod tests {
             squares: [squares; 3],
             non_finite: 0,
         }
+    }
+
+    #[test]
+    fn only_old_software_drivers_stop_early() {
+        let device = |kind, driver: &str| DeviceInfo {
+            kind,
+            driver: driver.into(),
+            ..crate::cpu::info()
+        };
+        let software = |driver| stops_early(&device(DeviceKind::Software, driver));
+        assert!(software("llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"));
+        assert!(software("llvmpipe Mesa 24.9.1"));
+        assert!(software("SwiftShader driver 5.0.0"));
+        assert!(!software("llvmpipe Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)"));
+        assert!(!software("llvmpipe Mesa 26.1.0-devel"));
+        assert!(!stops_early(&device(
+            DeviceKind::Hardware,
+            "radv Mesa 22.3.6"
+        )));
     }
 
     #[test]

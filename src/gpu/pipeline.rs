@@ -65,13 +65,11 @@ fn layout(device: &wgpu::Device, kinds: impl Iterator<Item = Binding>) -> wgpu::
     })
 }
 
-/// The bindings of group 0 in the kernels that trace: the scene, whole or array by array.
+/// The bindings of group 0 in the kernels that trace: the scene, what is in one uniform buffer first.
 pub fn scene_bindings(arrays: SceneArrays) -> Vec<Binding> {
-    if arrays.is_uniform() {
-        vec![Binding::Uniform]
-    } else {
-        vec![Binding::Read; arrays.list().len()]
-    }
+    let uniform = (!arrays.uniform().is_empty()).then_some(Binding::Uniform);
+    let storage = arrays.storage().into_iter().map(|_| Binding::Read);
+    uniform.into_iter().chain(storage).collect()
 }
 
 impl Pipeline {

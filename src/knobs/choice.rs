@@ -190,6 +190,18 @@ choice! {
 }
 
 choice! {
+    /// How rays find bodies; every way finds the same.
+    RenderKernel, "RENDER_KERNEL" {
+        /// `bvh` for many bodies, `general` for few.
+        Auto = "auto",
+        /// One body after the other.
+        General = "general",
+        /// By a bounding volume hierarchy.
+        Bvh = "bvh",
+    }
+}
+
+choice! {
     /// A named set of sampling knobs.
     Preset, "PRESET" {
         /// The rules of the paper's base code.

@@ -39,6 +39,7 @@ pub struct Render {
     pub max_bounces: u32,
     /// Largest radiance a sample may have in a channel.
     pub clamp: Option<f64>,
+    pub kernel: RenderKernel,
 }
 
 /// `light.*`.
@@ -105,6 +106,7 @@ impl Settings {
                 seed: value("render.seed").integer(),
                 max_bounces: whole("render.max_bounces"),
                 clamp: value("render.clamp").optional(),
+                kernel: choice(&value("render.kernel")),
             },
             light: Light {
                 sampler: choice(&value("light.sampler")),

@@ -41,8 +41,9 @@ pub struct Sphere {
     pub material: u32,
     /// 1 + index among the lamps; 0 for a sphere that does not shine.
     pub lamp: u32,
+    /// 1 + place among the packed bodies.
+    pub body: u32,
     pub _pad0: u32,
-    pub _pad1: u32,
 }
 
 /// `box.wgsl`; called `Box` there.
@@ -55,11 +56,12 @@ pub struct Cuboid {
     /// Place in the scene file: spheres from 1 on, then boxes.
     pub id: u32,
     pub axis_x: Vec3,
-    pub _pad0: u32,
+    /// 1 + place among the packed bodies.
+    pub body: u32,
     pub axis_y: Vec3,
-    pub _pad1: u32,
+    pub _pad0: u32,
     pub axis_z: Vec3,
-    pub _pad2: u32,
+    pub _pad1: u32,
 }
 
 /// `scatter.wgsl`.
@@ -116,6 +118,8 @@ pub struct FeatureJob {
     pub camera: Camera,
     pub corner: [u32; 2],
     pub size: [u32; 2],
+    pub iterations: u32,
+    pub _pad0: [u32; 3],
 }
 
 /// `points.wgsl`: one dispatch.

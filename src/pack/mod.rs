@@ -3,14 +3,19 @@
 mod layout;
 mod rect;
 mod strategy;
+mod traversal;
+mod tree;
 
 pub use layout::*;
 pub use rect::Rect;
 pub use strategy::{LastRay, RUN_LENGTH, Strategy};
+pub use traversal::Traversal;
+pub use tree::Hierarchy;
 
 use crate::knobs::{Choice, Pole, ScatterBound, Settings};
 use crate::scene::{self, Scene};
 use glam::{DMat3, DVec3};
+use std::sync::Arc;
 
 /// A scene as a device sees it: in the eye's own place, so that what is near has small coordinates.
 #[derive(Clone, Debug)]
@@ -28,6 +33,8 @@ pub struct Packed {
     /// Unrotated boxes first.
     pub boxes: Vec<Cuboid>,
     pub lamps: Vec<Lamp>,
+    /// The bodies once more where rays find them by a tree.
+    pub hierarchy: Option<Arc<Hierarchy>>,
     pub strategy: Strategy,
 }
 
@@ -37,13 +44,21 @@ impl Packed {
         let settings = &scene.settings;
         let (spheres, lamps) = pack_spheres(scene, eye);
         let (boxes, rotated) = pack_boxes(scene, eye);
-        let strategy = Strategy::new(
+        let straight = boxes.len() - rotated as usize;
+        let mut strategy = Strategy::new(
             scene,
             spheres.len() as u32,
-            boxes.len() as u32 - rotated,
+            straight as u32,
             rotated,
             lamps.len() as u32,
         );
+        let by_tree = Traversal::of(scene) == Traversal::Bvh;
+        let hierarchy = by_tree.then(|| Hierarchy::new(&spheres, &boxes, straight));
+        if let Some(hierarchy) = &hierarchy {
+            strategy.outside_sphere_count = hierarchy.spheres.len() as u32;
+            strategy.outside_box_count = hierarchy.boxes.len() as u32 - hierarchy.rotated;
+            strategy.outside_rotated_count = hierarchy.rotated;
+        }
         let material = |material| pack_material(material, settings.scatter.bound);
         Self {
             camera: pack_camera(&scene.camera, settings.image.width, settings.image.height),
@@ -57,6 +72,7 @@ impl Packed {
             spheres,
             boxes,
             lamps,
+            hierarchy: hierarchy.map(Arc::new),
             strategy,
         }
     }
@@ -175,6 +191,7 @@ fn pack_spheres(scene: &Scene, eye: DVec3) -> (Vec<Sphere>, Vec<Lamp>) {
             } else {
                 0
             },
+            body: index as u32 + 1,
             ..Sphere::default()
         });
     }
@@ -193,7 +210,10 @@ fn pack_boxes(scene: &Scene, eye: DVec3) -> (Vec<Cuboid>, u32) {
     let straight = numbered().filter(|(shape, _)| !is_rotated(shape));
     let rotated = numbered().filter(|(shape, _)| is_rotated(shape));
     let pack = |(shape, id)| pack_box(shape, eye, id);
-    let boxes: Vec<_> = straight.chain(rotated).map(pack).collect();
+    let mut boxes: Vec<_> = straight.chain(rotated).map(pack).collect();
+    for (shape, body) in boxes.iter_mut().zip(first_id..) {
+        shape.body = body;
+    }
     let rotated = scene.boxes.iter().filter(|shape| is_rotated(shape)).count();
     (boxes, rotated as u32)
 }

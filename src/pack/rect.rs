@@ -22,4 +22,19 @@ impl Rect {
     pub fn area(&self) -> usize {
         self.width() as usize * self.height() as usize
     }
+
+    /// One of its pixels, counted row by row.
+    pub fn pixel(&self, index: usize) -> Self {
+        let width = self.width() as usize;
+        let (x0, y0) = (
+            self.x0 + (index % width) as u32,
+            self.y0 + (index / width) as u32,
+        );
+        Self {
+            x0,
+            y0,
+            x1: x0 + 1,
+            y1: y0 + 1,
+        }
+    }
 }

@@ -37,6 +37,10 @@ pub struct Strategy {
     pub box_count: u32,
     pub rotated_box_count: u32,
     pub lamp_count: u32,
+    /// Of the bodies, those that stand outside the tree; 0 without one.
+    pub outside_sphere_count: u32,
+    pub outside_box_count: u32,
+    pub outside_rotated_count: u32,
 }
 
 impl Strategy {
@@ -60,11 +64,14 @@ impl Strategy {
             box_count: boxes,
             rotated_box_count: rotated,
             lamp_count: lamps,
+            outside_sphere_count: 0,
+            outside_box_count: 0,
+            outside_rotated_count: 0,
         }
     }
 
     /// Names and values of all override constants of all kernels.
-    pub fn overrides(&self) -> [(&'static str, u32); 16] {
+    pub fn overrides(&self) -> [(&'static str, u32); 19] {
         [
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
@@ -82,6 +89,9 @@ impl Strategy {
             ("BOX_COUNT", self.box_count),
             ("ROTATED_BOX_COUNT", self.rotated_box_count),
             ("LAMP_COUNT", self.lamp_count),
+            ("OUTSIDE_SPHERE_COUNT", self.outside_sphere_count),
+            ("OUTSIDE_BOX_COUNT", self.outside_box_count),
+            ("OUTSIDE_ROTATED_COUNT", self.outside_rotated_count),
         ]
     }
 }

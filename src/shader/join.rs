@@ -1,9 +1,11 @@
 //! Joins a kernel with the libraries it imports, each once, and remembers where every line came from.
 //!
-//! A file imports another with a comment line at its top: `// #import name`.
+//! A file imports another with a comment line at its top: `// #import name`. The name `traversal` stands
+//! for one of several files that declare the same functions: [`Traversal`] says which.
 
 use super::library::LIBRARY;
 use crate::error::{Error, Result};
+use crate::pack::Traversal;
 
 const IMPORT: &str = "// #import ";
 const GENERATED: &str = "constants";
@@ -46,14 +48,28 @@ impl Joined {
 ///
 /// # Errors
 /// [`Error::Internal`] for an import of a file that there is none of, or that imports itself.
-pub fn join(kernel: &str, constants: &str) -> Result<Joined> {
-    join_from(kernel, constants, LIBRARY)
+pub fn join(kernel: &str, constants: &str, traversal: Traversal) -> Result<Joined> {
+    join_from(kernel, constants, LIBRARY, traversal)
+}
+
+/// The file that an import names.
+fn file_of(import: &str, traversal: Traversal) -> &str {
+    match (import, traversal) {
+        ("traversal", Traversal::General) => "loops",
+        ("traversal", Traversal::Bvh) => "bvh",
+        _ => import,
+    }
 }
 
 /// [`join`] over any set of files.
-pub(crate) fn join_from(kernel: &str, constants: &str, library: &[(&str, &str)]) -> Result<Joined> {
+pub(crate) fn join_from(
+    kernel: &str,
+    constants: &str,
+    library: &[(&str, &str)],
+    traversal: Traversal,
+) -> Result<Joined> {
     let mut order = Vec::new();
-    collect(kernel, library, &mut Vec::new(), &mut order)?;
+    collect(kernel, library, traversal, &mut Vec::new(), &mut order)?;
     let mut joined = Joined {
         text: String::new(),
         kernel: kernel.into(),
@@ -75,6 +91,7 @@ pub(crate) fn join_from(kernel: &str, constants: &str, library: &[(&str, &str)])
 fn collect<'a>(
     name: &str,
     library: &[(&'a str, &'a str)],
+    traversal: Traversal,
     open: &mut Vec<&'a str>,
     order: &mut Vec<(&'a str, &'a str)>,
 ) -> Result<()> {
@@ -95,7 +112,13 @@ fn collect<'a>(
     }
     open.push(name);
     for import in text.lines().filter_map(|line| line.strip_prefix(IMPORT)) {
-        collect(import.trim(), library, open, order)?;
+        collect(
+            file_of(import.trim(), traversal),
+            library,
+            traversal,
+            open,
+            order,
+        )?;
     }
     open.pop();
     order.push((name, text));
@@ -113,7 +136,7 @@ mod tests {
             ("b", "// #import c\nfn b() {}"),
             ("c", "fn c() {}\n"),
         ];
-        let joined = join_from("a", "const X: u32 = 1u;\n", &files).unwrap();
+        let joined = join_from("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
         assert_eq!(joined.text.matches("fn c()").count(), 1);
         let line = joined
             .text
@@ -126,17 +149,31 @@ mod tests {
     }
 
     #[test]
+    fn a_traversal_is_one_of_several_files() {
+        let files = [
+            ("a", "// #import traversal\nfn a() {}\n"),
+            ("loops", "fn found() -> u32 {\n    return 1u;\n}\n"),
+            ("bvh", "fn found() -> u32 {\n    return 2u;\n}\n"),
+        ];
+        for (traversal, name) in [(Traversal::General, "loops"), (Traversal::Bvh, "bvh")] {
+            let joined = join_from("a", "", &files, traversal).unwrap();
+            let names: Vec<_> = joined.file_names().collect();
+            assert_eq!(names, ["constants", name, "a"]);
+        }
+    }
+
+    #[test]
     fn circles_and_missing_files_are_refused() {
         let circle = [("a", "// #import b\n"), ("b", "// #import a\n")];
         assert!(
-            join_from("a", "", &circle)
+            join_from("a", "", &circle, Traversal::General)
                 .unwrap_err()
                 .to_string()
                 .contains("a -> b -> a")
         );
         let missing = [("a", "// #import b\n")];
         assert!(
-            join_from("a", "", &missing)
+            join_from("a", "", &missing, Traversal::General)
                 .unwrap_err()
                 .to_string()
                 .contains("a imports b")
@@ -149,7 +186,7 @@ mod tests {
             ("a", "// #import b\nfn a() {}\n"),
             ("b", "fn b() {}\n\nfn broken() { let x = ; }\n"),
         ];
-        let joined = join_from("a", "const X: u32 = 1u;\n", &files).unwrap();
+        let joined = join_from("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
         let fault = crate::shader::parse(&joined).unwrap_err().to_string();
         assert!(fault.contains("b.wgsl:3"), "{fault}");
     }
@@ -163,7 +200,7 @@ mod tests {
                 "fn b() {}\n\nfn broken() -> u32 {\n    let x = vec2<f32>(1.0) * vec3<f32>(1.0);\n    return 1u;\n}\n",
             ),
         ];
-        let joined = join_from("a", "const X: u32 = 1u;\n", &files).unwrap();
+        let joined = join_from("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
         let outcome = crate::shader::parse(&joined)
             .and_then(|module| crate::shader::validate(&joined, &module));
         let fault = outcome.unwrap_err().to_string();

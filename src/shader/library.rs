@@ -10,10 +10,12 @@ macro_rules! library {
 
 library!(
     "box",
+    "bvh",
     "camera",
     "features",
     "interruption",
     "light",
+    "loops",
     "maths",
     "points",
     "probe",

@@ -1,15 +1,17 @@
 //! The shaders' text: joined from `shaders/`, with constants printed from the Rust types that
 //! define them, parsed and validated without a GPU.
 
+mod arrays;
 mod join;
 mod library;
 
+pub use arrays::{SceneArray, SceneArrays};
 pub use join::{Joined, join};
 pub use library::LIBRARY;
 
 use crate::error::{Error, Result};
 use crate::knobs::*;
-use crate::pack::{self, LastRay, Packed, RUN_LENGTH};
+use crate::pack::{LastRay, RUN_LENGTH};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 choice! {
@@ -44,114 +46,6 @@ choice! {
     }
 }
 
-/// Uniform buffers of this many bytes work on every device; larger scenes go into storage buffers.
-const UNIFORM_BYTES: usize = 16 * 1024;
-
-/// Lengths of the scene's arrays on the device, which the shader's declarations depend on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct SceneArrays {
-    pub materials: usize,
-    pub spheres: usize,
-    pub boxes: usize,
-    pub lamps: usize,
-}
-
-/// One array of the scene: the name of its accessor, its WGSL element type, its length, and the
-/// bytes of an element.
-#[derive(Clone, Copy, Debug)]
-pub struct SceneArray {
-    pub name: &'static str,
-    pub element: &'static str,
-    pub length: usize,
-    pub stride: usize,
-}
-
-impl SceneArrays {
-    /// The lengths that hold a scene. Small ones grow in powers of two, so that scenes of nearly one
-    /// size share a shader; none is empty, since WGSL has no empty arrays.
-    pub fn new(packed: &Packed) -> Self {
-        let lengths = |room: fn(usize) -> usize| Self {
-            materials: room(packed.materials.len()),
-            spheres: room(packed.spheres.len()),
-            boxes: room(packed.boxes.len()),
-            lamps: room(packed.lamps.len()),
-        };
-        let rounded = lengths(|count| count.max(1).next_power_of_two());
-        if rounded.is_uniform() {
-            rounded
-        } else {
-            lengths(|count| count.max(1))
-        }
-    }
-
-    /// The arrays in the order in which they are bound or lie in the uniform buffer.
-    pub fn list(&self) -> [SceneArray; 4] {
-        let array = |name, element, length, stride| SceneArray {
-            name,
-            element,
-            length,
-            stride,
-        };
-        [
-            array(
-                "material_at",
-                "Material",
-                self.materials,
-                size_of::<pack::Material>(),
-            ),
-            array(
-                "sphere_at",
-                "Sphere",
-                self.spheres,
-                size_of::<pack::Sphere>(),
-            ),
-            array("box_at", "Box", self.boxes, size_of::<pack::Cuboid>()),
-            array("lamp_at", "Lamp", self.lamps, size_of::<pack::Lamp>()),
-        ]
-    }
-
-    /// Whether the whole scene is one uniform buffer. It is one and not four because lavapipe 22.3
-    /// writes past a table of its own for a kernel's fourth uniform buffer, and crashes.
-    pub fn is_uniform(&self) -> bool {
-        let bytes: usize = self
-            .list()
-            .iter()
-            .map(|array| array.length * array.stride)
-            .sum();
-        bytes <= UNIFORM_BYTES
-    }
-
-    /// Bind group 0 and the functions that read it: `sphere_at(i)` and the like.
-    fn declarations(&self) -> String {
-        let accessor = |array: &SceneArray, place: &str| {
-            let SceneArray { name, element, .. } = array;
-            format!("fn {name}(index: u32) -> {element} {{\n    return {place}[index];\n}}\n")
-        };
-        if self.is_uniform() {
-            let member = |array: &SceneArray| {
-                format!(
-                    "    {}_: array<{}, {}>,\n",
-                    array.name, array.element, array.length
-                )
-            };
-            let members: String = self.list().iter().map(member).collect();
-            let read = |array: &SceneArray| accessor(array, &format!("scene_data.{}_", array.name));
-            let readers: String = self.list().iter().map(read).collect();
-            return format!(
-                "struct SceneData {{\n{members}}}\n@group(0) @binding(0) var<uniform> scene_data: SceneData;\n{readers}"
-            );
-        }
-        let storage = |(binding, array): (usize, &SceneArray)| {
-            let SceneArray { name, element, .. } = array;
-            let variable = format!(
-                "@group(0) @binding({binding}) var<storage, read> {name}_: array<{element}>;\n"
-            );
-            variable + &accessor(array, &format!("{name}_"))
-        };
-        self.list().iter().enumerate().map(storage).collect()
-    }
-}
-
 /// The numbers behind every name that the shaders compare with.
 fn constants() -> String {
     [
@@ -182,7 +76,7 @@ pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
         Kernel::Trace | Kernel::Features => arrays.declarations(),
         Kernel::Points | Kernel::Probe => String::new(),
     };
-    join(kernel.name(), &(constants() + &scene))
+    join(kernel.name(), &(constants() + &scene), arrays.traversal())
 }
 
 /// Parses a kernel's text; a fault is reported with the file and line it stands in.

@@ -176,6 +176,7 @@ fn record(samples: u64, seed: u64) -> Record {
         shader_hash: String::new(),
         preset: String::new(),
         knobs: Map::new(),
+        kernel: "general".into(),
         device: DeviceInfo {
             kind: DeviceKind::Cpu,
             name: String::new(),

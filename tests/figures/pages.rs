@@ -40,6 +40,7 @@ fn hostile() -> Figure {
                 }],
             }),
         ],
+        sweeps: Vec::new(),
         commands: vec![word(), "``` fence".into()],
         data: vec![DataFile {
             name: "../a b.csv".into(),

@@ -65,6 +65,7 @@ pub fn figure(number: u32, title: &str, holds: Holds, verdict: &str) -> Figure {
         },
         results: Vec::new(),
         blocks: Vec::new(),
+        sweeps: Vec::new(),
         commands: Vec::new(),
         data: vec![DataFile {
             name: format!("fig{number}.csv"),

@@ -136,7 +136,7 @@ fn equal_pictures_make_equal_bytes() {
 fn the_record_is_the_contract() {
     let record = picture(0..8).record;
     let json = record.to_json();
-    let names = "version scene scene_hash shader_hash preset knobs device width height crop \
+    let names = "version scene scene_hash shader_hash preset knobs kernel device width height crop \
         samples sample_range seed complete biased seconds paths rays non_finite mean \
         standard_error outputs";
     let value: serde_json::Map<String, serde_json::Value> = serde_json::from_str(&json).unwrap();
@@ -147,4 +147,16 @@ fn the_record_is_the_contract() {
     assert_eq!(serde_json::from_str::<Record>(&richer).unwrap(), record);
     let poorer = json.replacen("\"seed\"", "\"sead\"", 1);
     assert!(serde_json::from_str::<Record>(&poorer).is_err());
+}
+
+/// Records of before there was a choice of kernels have no name of one.
+#[test]
+fn a_record_without_a_kernel_is_read() {
+    let record = picture(0..16).record;
+    let mut json: serde_json::Value = serde_json::from_str(&record.to_json()).unwrap();
+    assert_eq!(json["kernel"], "general");
+    json.as_object_mut().unwrap().remove("kernel");
+    let old: Record = serde_json::from_value(json).unwrap();
+    assert_eq!(old.kernel, "");
+    assert!(!old.to_json().contains("\"kernel\""));
 }

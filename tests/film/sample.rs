@@ -143,6 +143,7 @@ pub fn record(samples: std::ops::Range<u64>) -> Record {
         shader_hash: "beef".into(),
         preset: "reference".into(),
         knobs,
+        kernel: "general".into(),
         device: device("llvmpipe"),
         devices: Vec::new(),
         width: 0,

@@ -88,7 +88,7 @@ pub fn ray(from: DVec3, to: DVec3) -> Ray {
 }
 
 fn nearest_hit(scene: &Packed, ray: &Ray) -> Hit {
-    lampray::cpu::scene::nearest_hit(&Bodies::new(scene), ray)
+    lampray::cpu::loops::nearest_hit(&Bodies::new(scene), ray)
 }
 
 /// What became of rays that leave a surface they hit.

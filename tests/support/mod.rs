@@ -63,5 +63,8 @@ pub fn strategy() -> Strategy {
         box_count: 0,
         rotated_box_count: 0,
         lamp_count: 0,
+        outside_sphere_count: 0,
+        outside_box_count: 0,
+        outside_rotated_count: 0,
     }
 }

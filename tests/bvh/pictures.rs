@@ -1,0 +1,114 @@
+//! Whole pictures by both kernels on one device: byte-identical, with their first hits. And which kernel
+//! a scene gets.
+
+use super::crowds::{KINDS, crowd, empty};
+use crate::support::bench::benches;
+use lampray::device::Device;
+use lampray::pack::{Feature, Traversal};
+use lampray::render::{Rendering, Task, render, whole};
+use lampray::scene::{Scene, Sphere};
+use std::ops::ControlFlow;
+
+fn rendering(device: &mut dyn Device, scene: &Scene) -> Rendering {
+    let task = Task {
+        samples: 0..4,
+        features: true,
+        ..Task::new(scene)
+    };
+    render(device, &task, &mut |_| ControlFlow::Continue(()))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Every pixel of two films and of their first hits is the same, bit for bit.
+fn same(a: &Rendering, b: &Rendering, what: &str) {
+    let pixels = (0..a.film.sums.len()).filter(|&pixel| {
+        let of = |one: &Rendering| {
+            (
+                one.film.sums[pixel],
+                one.film.squares[pixel],
+                one.features.as_ref().unwrap()[pixel],
+            )
+        };
+        of(a) != of(b)
+    });
+    let unlike: Vec<_> = pixels
+        .map(|pixel| (pixel, a.film.sums[pixel], b.film.sums[pixel]))
+        .collect();
+    assert!(
+        unlike.is_empty(),
+        "{what}: {} pixels differ: {:?}",
+        unlike.len(),
+        &unlike[..unlike.len().min(4)]
+    );
+    assert_eq!(a.film.rays, b.film.rays, "{what}");
+    assert!(a.film == b.film, "{what}");
+}
+
+fn ids(features: &[Feature]) -> usize {
+    let mut ids: Vec<_> = features.iter().map(|feature| feature.id).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids.len()
+}
+
+#[test]
+fn both_kernels_make_the_same_picture() {
+    for bench in benches() {
+        let mut seen = 0;
+        for kind in KINDS {
+            let [general, tree] = crowd(kind, 150, 30);
+            let pair = [general, tree].map(|scene| bench.with(|device| rendering(device, &scene)));
+            same(&pair[0], &pair[1], &format!("{bench:?}: {kind}"));
+            seen += ids(pair[0].features.as_ref().unwrap());
+        }
+        assert!(seen > 60, "only {seen} bodies in sight");
+    }
+}
+
+#[test]
+fn the_ready_scenes_are_the_same_by_both_kernels() {
+    for name in ["cornell", "three-balls", "montelight-complex"] {
+        let path = format!("scenes/{name}.toml");
+        let load = |kernel: &str| {
+            let sets = [
+                format!("render.kernel={kernel}"),
+                "image.width=16".into(),
+                "image.height=16".into(),
+            ];
+            let sets = sets.map(|set: String| lampray::scene::Assignment::parse(&set).unwrap());
+            Scene::load(path.as_ref(), &sets).unwrap_or_else(|error| panic!("{error}"))
+        };
+        for bench in benches() {
+            let pair = ["general", "bvh"]
+                .map(|kernel| bench.with(|device| rendering(device, &load(kernel))));
+            same(&pair[0], &pair[1], &format!("{bench:?}: {name}"));
+            assert_eq!(pair[0].film.region, whole(&load("auto")));
+        }
+    }
+}
+
+#[test]
+fn the_scene_alone_chooses_the_kernel() {
+    let of = |kernel: &str, bodies: usize| {
+        let mut scene = empty(kernel);
+        let one = Sphere {
+            center: glam::DVec3::ONE,
+            radius: 1.0,
+            material: 0,
+        };
+        scene.spheres = vec![one; bodies];
+        Traversal::of(&scene)
+    };
+    for bodies in [0, 1, 10_000] {
+        assert_eq!(of("general", bodies), Traversal::General);
+        assert_eq!(of("bvh", bodies), Traversal::Bvh);
+    }
+    assert_eq!(
+        (of("auto", 20), of("auto", 2000)),
+        (Traversal::General, Traversal::Bvh)
+    );
+    let border = (20..2000)
+        .find(|bodies| of("auto", *bodies) == Traversal::Bvh)
+        .unwrap();
+    assert_eq!(of("auto", border - 1), Traversal::General);
+}
