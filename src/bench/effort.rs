@@ -3,7 +3,8 @@
 use crate::pack::RUN_LENGTH;
 use crate::scene::Scene;
 
-/// Size of the picture and samples of each pixel. A smaller picture shows the same view.
+/// Size of the picture and samples of each pixel. A smaller picture shows the same view; how fast a
+/// device is depends a little on it, so what is compared on one device gets pictures of one size ([`one_size`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     pub width: u32,
@@ -53,6 +54,21 @@ impl Effort {
         f64::from(self.width) * f64::from(self.height) * self.samples as f64
     }
 
+    /// About as many paths of a picture of another size.
+    pub fn resized(self, size: [u32; 2]) -> Self {
+        let run = u64::from(RUN_LENGTH);
+        let samples = self.paths() / (f64::from(size[0]) * f64::from(size[1]));
+        let samples = match samples as u64 / run {
+            0 => (samples.round() as u64).max(1),
+            runs => runs * run,
+        };
+        Self {
+            width: size[0],
+            height: size[1],
+            samples,
+        }
+    }
+
     /// What to try after this took `took` seconds: the second is whether it is to be the last.
     pub fn next(self, size: [u32; 2], took: f64, wanted: f64) -> (Self, bool) {
         let took = took.max(1e-6);
@@ -69,6 +85,19 @@ impl Effort {
         scene.settings.image.width = self.width;
         scene.settings.image.height = self.height;
         scene.settings.render.samples = self.samples;
+    }
+}
+
+/// Gives all of them the smallest picture among them, and each about as many paths as it had.
+pub fn one_size<'a>(efforts: impl IntoIterator<Item = &'a mut Effort>) {
+    let efforts: Vec<&mut Effort> = efforts.into_iter().collect();
+    let sizes = efforts.iter().map(|effort| [effort.width, effort.height]);
+    let Some(smallest) = sizes.min_by_key(|[width, height]| u64::from(*width) * u64::from(*height))
+    else {
+        return;
+    };
+    for effort in efforts {
+        *effort = effort.resized(smallest);
     }
 }
 
@@ -124,6 +153,24 @@ mod tests {
                 samples: 96
             }
         );
+    }
+
+    #[test]
+    fn what_is_compared_has_pictures_of_one_size() {
+        let mut efforts = [1e4, 1e6, 1e8].map(|paths| Effort::new(SIZE, paths));
+        let before = efforts;
+        one_size(&mut efforts);
+        for (now, before) in efforts.iter().zip(before) {
+            assert_eq!((now.width, now.height), first_size(&efforts));
+            let ratio = now.paths() / before.paths();
+            assert!((0.5..1.5).contains(&ratio), "{now:?}");
+        }
+        assert_eq!(efforts[0], before[0], "the smallest stays");
+        one_size([]);
+    }
+
+    fn first_size(efforts: &[Effort]) -> (u32, u32) {
+        (efforts[0].width, efforts[0].height)
     }
 
     /// A device of any speed is found in a few tries, and then takes about the time wanted.

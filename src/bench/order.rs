@@ -103,6 +103,16 @@ impl Order {
         cells
     }
 
+    /// Whether an axis has more than one value.
+    pub fn several(&self, axis: Axis) -> bool {
+        let values = match axis {
+            Axis::Device => self.devices.len(),
+            Axis::Preset => self.presets.len(),
+            Axis::Kernel => self.kernels.len(),
+        };
+        values > 1
+    }
+
     /// How a cell's value is called.
     pub fn label(&self, cell: Cell, axis: Axis) -> Option<String> {
         match axis {

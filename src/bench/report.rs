@@ -94,7 +94,7 @@ pub struct Ratio {
     pub axis: Axis,
     pub of: String,
     pub to: String,
-    /// The values of the other axes.
+    /// The values of the other axes, of those that have several.
     pub at: Vec<String>,
     /// Of rays a second, turn by turn.
     pub mrays: Spread,
@@ -237,7 +237,8 @@ fn ratio(
         Spread::of(ratios(&values(found), &values(base)))
     };
     let name = |cell, axis| order.label(cell, axis);
-    let others = Axis::ALL.into_iter().filter(|other| *other != axis);
+    let others = Axis::ALL.into_iter();
+    let others = others.filter(|other| *other != axis && order.several(*other));
     Some(Ratio {
         scene: subject.name(),
         axis,

@@ -1,6 +1,6 @@
 //! The run itself: scene after scene, and in each scene turn after turn through the cells.
 
-use super::effort::Effort;
+use super::effort::{Effort, one_size};
 use super::measure::{Measured, calibrate, measure};
 use super::order::{Axis, Cell, Order, turn};
 use super::report::{Gathered, Report, Status};
@@ -104,8 +104,20 @@ impl Runner<'_> {
                     }
                 }
             }
+            if number == 0 {
+                self.compare_like_with_like(cells, &mut efforts);
+            }
         }
         (found, outcome)
+    }
+
+    /// One size of picture for all that is measured on one device.
+    fn compare_like_with_like(&self, cells: &[Cell], efforts: &mut [Option<Effort>]) {
+        for device in 0..self.order.devices.len() {
+            let cells = cells.iter().zip(efforts.iter_mut());
+            let mine = cells.filter(|(cell, _)| cell.device == device);
+            one_size(mine.filter_map(|(_, effort)| effort.as_mut()));
+        }
     }
 
     /// One measurement of a cell on a device of its own: the first finds how much work it is.

@@ -90,7 +90,8 @@ fn head(devices: bool, presets: bool, kernels: bool) -> Vec<String> {
         "Mrays/s",
         "[middle half]",
         "Msamples/s",
-        "rays/sample",
+        "rays/path",
+        "pack",
         "compile",
         "outside",
         "memory",
@@ -98,13 +99,14 @@ fn head(devices: bool, presets: bool, kernels: bool) -> Vec<String> {
     head.into_iter().map(String::from).collect()
 }
 
-fn cells(figures: &Figures) -> [String; 7] {
+fn cells(figures: &Figures) -> [String; 8] {
     let peak = figures.peak.as_ref();
     [
         digits(figures.mrays.median),
         half(&figures.mrays),
         digits(figures.msamples.median),
         format!("{:.1}", figures.rays_per_sample),
+        time(figures.pack.median),
         time(figures.compile.median),
         format!("{:.1} %", 100.0 * figures.outside.median),
         peak.map_or("-".into(), |peak| {
@@ -139,6 +141,7 @@ fn ratios(report: &Report) -> String {
             ratio.scene.clone(),
             ratio.axis.name().into(),
             format!("{} : {}", ratio.of, ratio.to),
+            ratio.at.join(", "),
             digits(ratio.mrays.median),
             half(&ratio.mrays),
             digits(ratio.msamples.median),
@@ -149,6 +152,7 @@ fn ratios(report: &Report) -> String {
         "scene",
         "axis",
         "ratio",
+        "at",
         "Mrays/s",
         "[middle half]",
         "Msamples/s",
@@ -157,7 +161,7 @@ fn ratios(report: &Report) -> String {
     lines.insert(0, head.map(String::from).to_vec());
     format!(
         "\nratios inside this run, each turn against its own pair\n{}",
-        aligned(&lines, |column| column < 3)
+        aligned(&lines, |column| column < 4)
     )
 }
 
