@@ -177,7 +177,15 @@ fn a_scene_that_a_device_cannot_trace_keeps_its_row() {
         let _ = writeln!(std::io::stderr(), "NOT RUN: no software device was found");
         return;
     }
-    let both = ["--primitives", "1,200k", "--device", "software", "--json"];
+    let both = [
+        "--primitives",
+        "1,200k",
+        "--device",
+        "software",
+        "--kernel",
+        "general",
+        "--json",
+    ];
     let few = ["--seconds", "0.001", "--repeats", "1"];
     let report = json(&bench(folder.path(), &[&both[..], &few].concat()));
     let rows = report["rows"].as_array().unwrap();
@@ -186,7 +194,14 @@ fn a_scene_that_a_device_cannot_trace_keeps_its_row() {
     if rows[1]["status"] != "measured" {
         assert_eq!(rows[1]["status"], "refused");
         assert!(rows[1]["reason"].as_str().unwrap().contains("--device cpu"));
-        let alone = ["--primitives", "200k", "--device", "software"];
+        let alone = [
+            "--primitives",
+            "200k",
+            "--device",
+            "software",
+            "--kernel",
+            "general",
+        ];
         let output = bench(folder.path(), &[&alone[..], &few].concat());
         assert_eq!(
             output.status.code(),
@@ -235,7 +250,7 @@ fn mistakes_are_said_before_anything_is_measured() {
 }
 
 #[test]
-fn help_has_examples_that_parse() {
+fn help_has_examples_and_names_the_options() {
     let folder = folder();
     let output = bench(folder.path(), &["--help"]);
     let text = String::from_utf8(output.stdout).unwrap();

@@ -3,8 +3,8 @@
 use crate::pack::RUN_LENGTH;
 use crate::scene::Scene;
 
-/// Size of the picture and samples of each pixel. A smaller picture shows the same view; how fast a
-/// device is depends a little on it, so what is compared on one device gets pictures of one size ([`one_size`]).
+/// Size of the picture and samples of each pixel. A smaller picture shows the same view, but how fast a
+/// device is depends a little on its size: what is compared on one device gets pictures of one size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     pub width: u32,

@@ -16,17 +16,19 @@ use std::path::PathBuf;
 ///
 /// Scenes are scenes/cornell.toml, which is in the program, and rooms like it of N small spheres, which are
 /// the same on every machine. Devices, presets and kernels of one scene are measured in turns (A B C, then
-/// C B A), by pictures of one size on each device; the first turn is thrown away, and the ratios printed are medians of each turn's own
-/// ratio. Machines are shared and clocks move: believe ratios inside a run rather than times.
+/// C B A), by pictures of one size on each device; the first turn is thrown away, and the ratios printed
+/// are medians of each turn's own ratio. Machines are shared and clocks move: believe ratios inside a run
+/// rather than times.
 ///
 /// Columns: Mrays/s and Msamples/s of tracing (shadow rays are rays, samples are paths); pack is from the
-/// scene to flat buffers, trees included; compile is pipeline creation, upload and first dispatch on a freshly opened
-/// device (drivers keep what they compiled: JSON has the first time of all as first_compile); outside is the share of a render that is set-up, copying
-/// results back and adding them up (no files are written); memory is what this process
-/// held at most (Linux). A scene that a device cannot trace is said so.
+/// scene to flat buffers, trees included; compile is pipeline creation, upload and first dispatch on a
+/// freshly opened device (drivers keep what they compiled: JSON has the first time of all as
+/// first_compile); outside is the share of a render that is set-up, copying results back and adding them
+/// up (no files are written); memory is what this process held at most (Linux). A scene that a device
+/// cannot trace is said so.
 #[derive(Args)]
 #[command(after_help = "Examples:
-  lampray bench                                          # about two minutes on a fast device
+  lampray bench                                          # a minute; several where scenes are slow
   lampray bench --quick --device all                     # every device here, and their ratios
   lampray bench --primitives cornell,1k,100k --preset reference,paper --device cpu
   lampray bench scenes/many-lamps.toml --set light.strategy=sample --seconds 3
