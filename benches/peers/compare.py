@@ -126,6 +126,8 @@ def main():
         programs = [Lampray(device, chosen.set, folder) for device in chosen.device or ["software", "cpu"]]
         programs += [Mitsuba(variant, folder) for variant in VARIANTS]
         print(f"lampray beside Mitsuba {mitsuba.__version__}, {THREADS} threads each, {repeats} turns", flush=True)
+        if chosen.quick:
+            print("--quick shows that all works: its pictures are too small for Mitsuba's wavefronts, quote no ratio of it")
         for name, what, settings, side, samples in cases(chosen.quick):
             if chosen.case and name not in chosen.case:
                 continue
