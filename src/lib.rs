@@ -39,7 +39,7 @@
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`theory`] | closed forms and quadratures of the paper's samplers and weights |
 //! | [`points`] | the samplers alone, as data or as a plot |
-//! | [`bench`] | how fast devices trace: scenes by primitive count, paired ratios; renders, and keeps no picture |
+//! | [`mod@bench`] | how fast devices trace: scenes by primitive count, paired ratios; renders, and keeps no picture |
 //! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
