@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally};
 use serde::{Deserialize, Serialize};
+use std::time::Duration;
 
 /// What a device is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -117,6 +118,11 @@ pub trait Device {
     /// # Errors
     /// As [`Device::trace`].
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>>;
+
+    /// Time spent so far on copying results out of the device's memory: none where there is no copy.
+    fn readback(&self) -> Duration {
+        Duration::ZERO
+    }
 }
 
 /// Number of runs that a range of samples falls into.

@@ -39,6 +39,7 @@
 //! | [`calibrate`] | limits that are measured: renders and compares |
 //! | [`theory`] | closed forms and quadratures of the paper's samplers and weights |
 //! | [`points`] | the samplers alone, as data or as a plot |
+//! | [`mod@bench`] | how fast devices trace: scenes by primitive count, paired ratios; renders, and keeps no picture |
 //! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
@@ -75,6 +76,7 @@
 #![forbid(unsafe_code)]
 
 pub mod analysis;
+pub mod bench;
 pub mod bvh;
 pub mod calibrate;
 pub mod cli;

@@ -1,5 +1,6 @@
 //! The command line: one file a command, each a thin face over one library call.
 
+mod bench;
 mod check;
 mod devices;
 mod diff;
@@ -59,6 +60,7 @@ enum Command {
     Diff(Box<diff::Command>),
     Sweep(Box<sweep::Command>),
     Figures(figures::Command),
+    Bench(bench::Command),
 }
 
 /// Runs the program and says with which code it ends.
@@ -95,6 +97,7 @@ fn run(line: Lampray) -> Result<ExitCode> {
         Command::Merge(command) => command.run(line.output),
         Command::Sweep(command) => command.run(line.output),
         Command::Figures(command) => command.run(line.output),
+        Command::Bench(command) => command.run(line.output),
     }?;
     Ok(signal::exit_code())
 }

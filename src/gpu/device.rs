@@ -12,6 +12,7 @@ use crate::shader::{Kernel, SceneArray, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The id of a feature whose ray was left before its end.
 const UNFINISHED: u32 = u32::MAX;
@@ -362,5 +363,9 @@ impl Device for Gpu {
         let inputs = [(bytemuck::bytes_of(job), wgpu::BufferUsages::UNIFORM)];
         let groups = [job.count.div_ceil(64), 1];
         self.dispatch(&pipeline, false, &inputs, groups, job.count as usize)
+    }
+
+    fn readback(&self) -> Duration {
+        self.guard.readback()
     }
 }

@@ -4,9 +4,9 @@
 use crate::error::{Error, Result};
 use crate::panics::catch;
 use bytemuck::Pod;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// No dispatch is planned to take over half a second; one that takes this long has hung.
 const TIMEOUT: Duration = Duration::from_secs(120);
@@ -20,6 +20,8 @@ pub struct Guard {
     lost: Arc<AtomicBool>,
     /// An error that no scope caught: the device cannot be trusted from then on.
     uncaught: Arc<Mutex<Option<String>>>,
+    /// Nanoseconds spent on copying results out of the device's memory.
+    readback: AtomicU64,
 }
 
 impl Guard {
@@ -40,6 +42,7 @@ impl Guard {
             name: name.into(),
             lost,
             uncaught,
+            readback: AtomicU64::new(0),
         }
     }
 
@@ -148,6 +151,11 @@ impl Guard {
         }
     }
 
+    /// Time spent so far on copying results out of the device's memory.
+    pub(super) fn readback(&self) -> Duration {
+        Duration::from_nanos(self.readback.load(Ordering::Relaxed))
+    }
+
     /// Reads a staging buffer that the device has written.
     pub(super) fn read<T: Pod>(&self, staging: &wgpu::Buffer, bytes: u64) -> Result<Vec<T>> {
         let mapped = Arc::new(AtomicBool::new(false));
@@ -161,12 +169,15 @@ impl Guard {
         if !mapped.load(Ordering::SeqCst) {
             return Err(self.lost_error("its memory could not be read"));
         }
+        let started = Instant::now();
         let items = self.caught("while reading", || {
             staging
                 .get_mapped_range(0..bytes)
                 .map(|view| bytemuck::pod_collect_to_vec(&view))
         })?;
         self.caught("while unmapping", || staging.unmap())?;
+        let took = started.elapsed().as_nanos() as u64;
+        self.readback.fetch_add(took, Ordering::Relaxed);
         items.map_err(|fault| Error::Internal(format!("on {}: {fault}", self.name)))
     }
 }
