@@ -26,8 +26,10 @@ pub struct Order<'a> {
 }
 
 /// How it ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outcome {
+    /// What was found damaged and made again, a line each.
+    pub damaged: Vec<String>,
     pub made: usize,
     /// Runs that were there already.
     pub found: usize,
@@ -65,6 +67,7 @@ pub fn reproduce(order: Order, open: &mut Open, hear: &mut Hear) -> Result<Outco
     let mut outcome = Outcome::default();
     for ((experiment, study), mut sweep) in mine.iter().zip(sweeps) {
         let paths = sweep.paths();
+        outcome.damaged.extend_from_slice(sweep.damaged());
         let mut watch = |progress: Progress| hear(study, pace.over_all(progress, paths));
         let mut again = || device.take().map_or_else(&mut *open, Ok);
         let (one, references) = run(study, &mut sweep, &mut again, &mut watch)?;
@@ -150,6 +153,7 @@ fn run(
         found: summary.skipped,
         failed: summary.failed,
         stopped: summary.stopped,
+        ..Outcome::default()
     };
     let mut references = 0;
     if study.reference && !summary.stopped {

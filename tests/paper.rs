@@ -200,6 +200,10 @@ fn a_lost_run_is_named(folder: &Path) {
         said.contains("fig9-sphere") && said.contains("--draw-only"),
         "{said}"
     );
+    let mended = figures(folder, &["--quick", "--only", "9"]);
+    let said = text(&mended.stderr);
+    assert!(mended.status.success(), "{said}");
+    assert!(said.contains("made again"), "{said}");
 }
 
 #[test]

@@ -59,6 +59,9 @@ impl Command {
             true => Outcome::default(),
             false => self.render(order, output)?,
         };
+        for fault in &outcome.damaged {
+            remark(&format!("lampray: {fault}; the run is made again"), output);
+        }
         if outcome.stopped {
             remark(
                 "lampray: stopped early; the same command goes on with it",
