@@ -78,6 +78,21 @@ impl Record {
         // Keys are strings and no value can fail to be written, so there is no error to report.
         serde_json::to_string(self).unwrap_or_default()
     }
+
+    /// The same with spaces behind it, so that its length does not depend on how many digits the times take: equal
+    /// renders give files of equal length.
+    pub fn to_even_json(&self) -> String {
+        /// The longest f64 in JSON, such as -2.2250738585072014e-308.
+        const LONGEST: usize = 24;
+        let written = |value: f64| serde_json::to_string(&value).unwrap_or_default().len();
+        let Seconds {
+            setup,
+            render,
+            total,
+        } = self.seconds;
+        let short = [setup, render, total].map(|value| LONGEST.saturating_sub(written(value)));
+        self.to_json() + &" ".repeat(short.iter().sum())
+    }
 }
 
 /// Wall-clock times.
@@ -89,4 +104,41 @@ pub struct Seconds {
     pub render: f64,
     /// All of it, writing of files excepted where the record is inside them.
     pub total: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_do_not_change_the_length() {
+        let of = |setup, render, total| {
+            let seconds = Seconds {
+                setup,
+                render,
+                total,
+            };
+            let record = Record {
+                seconds,
+                ..sample()
+            };
+            let text = record.to_even_json();
+            assert_eq!(
+                serde_json::from_str::<Record>(&text).unwrap().seconds,
+                seconds
+            );
+            text.len()
+        };
+        let lengths = [of(0.1, 2.0, 3.0), of(0.073892306, 1e-300 / 3.0, 1e9 / 7.0)];
+        assert_eq!(lengths[0], lengths[1]);
+        assert_ne!(lengths[0], sample().to_json().len());
+    }
+
+    fn sample() -> Record {
+        let text = r#"{"version":"0","scene":"s","scene_hash":"","shader_hash":"","preset":"reference","knobs":{},"kernel":"general",
+            "device":{"kind":"cpu","name":"","driver":"","backend":"none","pci":""},"width":1,"height":1,"samples":1,
+            "sample_range":[0,1],"seed":0,"complete":true,"biased":false,"seconds":{"setup":0.0,"render":0.0,"total":0.0},
+            "paths":1,"rays":1,"non_finite":0,"mean":[0.0,0.0,0.0],"standard_error":[0.0,0.0,0.0],"outputs":[]}"#;
+        serde_json::from_str(text).unwrap()
+    }
 }

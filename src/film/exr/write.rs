@@ -49,7 +49,7 @@ fn header(picture: &Picture, planes: &[(&str, Plane)]) -> io::Result<Header> {
     // one for the file and one for the layer; a single entry in each keeps the bytes the same.
     let mut shared = ImageAttributes::with_size(size);
     let mut own = LayerAttributes::default();
-    let record = AttributeValue::Text(string(&picture.record.to_json()));
+    let record = AttributeValue::Text(string(&picture.record.to_even_json()));
     own.other.insert(string("lampray"), record);
     if let Some(scene_text) = text::portable(picture.scene_text.as_deref()) {
         let bytes = SmallVec::from_vec(text::compress(scene_text)?);

@@ -31,7 +31,10 @@ fn encode(picture: &Picture, writer: impl Write) -> Result<(), EncodingError> {
         Encoding::Gamma22 => encoder.set_source_gamma(ScaledFloat::from_scaled(45455)),
     }
     let mut writer = encoder.write_header()?;
-    writer.write_text_chunk(&ITXtChunk::new(RECORD_KEYWORD, picture.record.to_json()))?;
+    writer.write_text_chunk(&ITXtChunk::new(
+        RECORD_KEYWORD,
+        picture.record.to_even_json(),
+    ))?;
     if let Some(scene_text) = text::portable(picture.scene_text.as_deref()) {
         let mut chunk = ITXtChunk::new(SCENE_KEYWORD, scene_text);
         chunk.compressed = true;
