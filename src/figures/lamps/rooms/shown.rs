@@ -29,7 +29,7 @@ pub fn pictures(data: &Data) -> Result<Pictures> {
                 let group = group(data, room, preset, case)?;
                 let bias = group.regions[0].relative_bias;
                 let note = bias.map_or(String::new(), |bias| {
-                    format!("{:+.1} ± {:.1} %", 100.0 * bias.value, 196.0 * bias.error)
+                    format!("{:+.2} ± {:.2} %", 100.0 * bias.value, 196.0 * bias.error)
                 });
                 cells.push(shown(group, question.size(), 0.0, note));
             }
