@@ -210,7 +210,7 @@ mod unix {
         let outcome = Target::prepare(folder.join("full.png"))
             .unwrap()
             .write(&picture(0..2));
-        assert!(matches!(outcome, Err(Error::Write { .. })));
+        assert!(matches!(outcome, Err(Error::Stream { .. })));
         assert_eq!(folder.names(), ["full.png"]);
     }
 
