@@ -1,5 +1,5 @@
 // The baked traversal: what the general one does, straight down. This is the part that is the same for
-// every scene; the host prints the rest (src/shader/bake.rs): `nearest_hit` and `occluded` with one line
+// every scene; the host prints the rest (src/shader/bake): `nearest_hit` and `occluded` with one line
 // a body, each line one call of a function below, and the functions that read the scene.
 //
 // Bodies come in the general traversal's order and are met by the same functions of the same numbers:

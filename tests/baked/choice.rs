@@ -19,19 +19,19 @@ fn cornell(sets: &[&str]) -> Scene {
 #[test]
 fn auto_bakes_what_pays_for_it() {
     let of = |sets: &[&str]| Traversal::of(&cornell(sets));
-    assert_eq!(of(&["render.samples=127"]), Traversal::General);
-    assert_eq!(of(&["render.samples=128"]), Traversal::Baked);
+    assert_eq!(of(&["render.samples=63"]), Traversal::General);
+    assert_eq!(of(&["render.samples=64"]), Traversal::Baked);
     assert_eq!(
-        of(&["render.samples=32", "image.width=512", "image.height=512"]),
+        of(&["render.samples=16", "image.width=512", "image.height=512"]),
         Traversal::Baked
     );
     // Short paths are less work.
     assert_eq!(
-        of(&["render.samples=128", "render.max_bounces=2"]),
+        of(&["render.samples=64", "render.max_bounces=2"]),
         Traversal::General
     );
     assert_eq!(
-        of(&["render.samples=512", "render.max_bounces=0"]),
+        of(&["render.samples=256", "render.max_bounces=0"]),
         Traversal::Baked
     );
     for (kernel, expected) in [("general", Traversal::General), ("bvh", Traversal::Bvh)] {
