@@ -95,12 +95,9 @@ fn nearest_hit(scene: &Packed) -> String {
     )
 }
 
-/// Shadow rays go to lamps: what is none is never the target.
 fn occluded(scene: &Packed) -> String {
-    let is_lamp = |body| scene.lamps.iter().any(|lamp| lamp.body == body);
-    let line = |(body, distance)| match is_lamp(body) {
-        true => format!("    blocked |= blocks({distance}, reach) & (target_body != {body}u);\n"),
-        false => format!("    blocked |= blocks({distance}, reach);\n"),
+    let line = |(body, distance)| {
+        format!("    blocked |= blocks({distance}, reach) & (target_body != {body}u);\n")
     };
     let lines: String = distances(scene).into_iter().map(line).collect();
     format!(
