@@ -79,6 +79,8 @@ fn awkward(kernel: &str) -> Scene {
         sphere([-0.0, 0.0, -4.0], 1.0, 1),
         sphere([1e-40, -1e-45, -2.0], 1e-6, 0),
         sphere([-0.5, 1e-6, -3.0], 1.0 / 3.0, 0),
+        // Where two are equally near, the first is what is seen.
+        sphere([-0.5, 1e-6, -3.0], 1.0 / 3.0, 3),
         sphere([0.0, -1e5, -0.0], 1e5 - 1.0, 0),
         sphere([0.0, 1e6, 0.0], 1e6 - 20.0, 3),
     ];
