@@ -1,8 +1,9 @@
-//! What a sample costs by each kernel, in rooms of more and more spheres.
+//! What a sample costs by each kernel, in rooms of more and more spheres or in scene files.
 //!
-//!   cargo bench --bench kernels -- [DEVICE] [COUNTS] [ROUNDS]
+//!   MESA_SHADER_CACHE_DISABLE=1 cargo bench --bench kernels -- [DEVICE] [SCENES] [ROUNDS] [KERNELS]
 //!
-//! for example `software 8,32,128,1000 5`. Each round takes every scene and kernel once, forwards and
+//! for example `software 8,32,128,1000 5 general,bvh`; a scene is a number of spheres, or a file with any
+//! `+KNOB=VALUE` behind it: `scenes/cornell.toml+light.strategy=sample`. Each round takes every scene and kernel once, forwards and
 //! then backwards, so that a clock that drifts is everyone's; the table has medians. The same pixels
 //! and samples are traced by all, and they must agree bit for bit.
 
@@ -11,6 +12,7 @@ mod spheres;
 
 use lampray::device::Device;
 use lampray::pack::{Packed, Rect, Tally};
+use lampray::scene::{Assignment, Scene};
 use std::time::Instant;
 
 /// Seconds of processor time that this process has taken, where the system tells (Linux: in hundredths);
@@ -27,10 +29,13 @@ const SIDE: u32 = 96;
 const SECONDS: f64 = 0.4;
 
 struct Entry {
-    count: usize,
-    kernel: &'static str,
+    name: String,
+    kernel: String,
     packed: Packed,
+    whole: Rect,
     samples: u32,
+    /// Seconds that the first load took: most of it goes to compiling.
+    load: f64,
     /// Seconds a sample, one a visit: of processor time where it is known.
     costs: Vec<f64>,
     rays: f64,
@@ -42,21 +47,18 @@ fn timed<T>(what: impl FnOnce() -> T) -> (T, f64) {
     (outcome, began.elapsed().as_secs_f64())
 }
 
-const WHOLE: Rect = Rect {
-    x0: 0,
-    y0: 0,
-    x1: SIDE,
-    y1: SIDE,
-};
-
-fn packed(count: usize, kernel: &str) -> (Packed, f64) {
-    let sets = [
-        format!("render.kernel={kernel}"),
-        format!("image.width={SIDE}"),
-        format!("image.height={SIDE}"),
-    ];
-    let scene = spheres::room(count, &sets);
-    timed(|| Packed::new(&scene))
+/// A room of so many spheres, or a scene file with its settings.
+fn scene(name: &str, kernel: &str) -> Scene {
+    let kernel = format!("render.kernel={kernel}");
+    if let Ok(count) = name.parse() {
+        let size = ["width", "height"].map(|side| format!("image.{side}={SIDE}"));
+        return spheres::room(count, &[&size[..], &[kernel]].concat());
+    }
+    let mut words = name.split('+');
+    let path = words.next().unwrap_or_default();
+    let sets = words.chain([kernel.as_str()]);
+    let sets: Result<Vec<_>, _> = sets.map(Assignment::parse).collect();
+    Scene::load(path.as_ref(), &sets.unwrap()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn sum(tallies: &[Tally]) -> f64 {
@@ -65,38 +67,38 @@ fn sum(tallies: &[Tally]) -> f64 {
 
 /// An entry whose number of samples takes long enough, and one sample of it; none where the device
 /// refuses the scene.
-fn entry(
-    device: &mut dyn Device,
-    count: usize,
-    kernel: &'static str,
-) -> Option<(Entry, Vec<Tally>)> {
-    let (packed, pack) = packed(count, kernel);
+fn entry(device: &mut dyn Device, name: &str, kernel: &str) -> Option<(Entry, Vec<Tally>)> {
+    let scene = scene(name, kernel);
+    let whole = lampray::render::whole(&scene);
+    let (packed, pack) = timed(|| Packed::new(&scene));
     let (loaded, load) = timed(|| device.load(&packed));
-    println!("{count:>8} {kernel:>8}: pack {pack:.2} s, load {load:.2} s");
-    let first = loaded.and_then(|()| device.trace(WHOLE, 0, 1));
+    println!("{name:>8} {kernel:>8}: pack {pack:.2} s, load {load:.2} s");
+    let first = loaded.and_then(|()| device.trace(whole, 0, 1));
     let first = first.inspect_err(|error| println!("{error}")).ok()?;
-    let (again, took) = timed(|| device.trace(WHOLE, 1, 1));
+    let (again, took) = timed(|| device.trace(whole, 1, 1));
     let again = again.inspect_err(|error| println!("{error}")).ok()?;
     let entry = Entry {
-        count,
-        kernel,
+        name: name.into(),
+        kernel: kernel.into(),
         packed,
+        whole,
         samples: ((SECONDS / took) as u32).clamp(1, 64),
+        load,
         costs: Vec::new(),
-        rays: sum(&again) / WHOLE.area() as f64,
+        rays: sum(&again) / whole.area() as f64,
     };
     Some((entry, first))
 }
 
 fn visit(device: &mut dyn Device, entry: &mut Entry) {
     device.load(&entry.packed).unwrap();
-    device.trace(WHOLE, 0, 1).unwrap();
+    device.trace(entry.whole, 0, 1).unwrap();
     let before = processor_seconds();
-    let (_, took) = timed(|| device.trace(WHOLE, 0, entry.samples).unwrap());
+    let (_, took) = timed(|| device.trace(entry.whole, 0, entry.samples).unwrap());
     let took = processor_seconds()
         .zip(before)
         .map_or(took, |(after, before)| after - before);
-    let samples = WHOLE.area() as f64 * f64::from(entry.samples);
+    let samples = entry.whole.area() as f64 * f64::from(entry.samples);
     entry.costs.push(took / samples);
 }
 
@@ -118,19 +120,26 @@ fn main() {
     let mut device = lampray::render::open(&word(0, "auto").parse().unwrap(), None)
         .unwrap()
         .device;
-    let counts = word(1, "8,32,128,1000,10000");
+    let names = word(1, "8,32,128,1000,10000");
     let rounds: usize = word(2, "5").parse().unwrap();
     println!("{} ({})", device.info().name, device.info().driver);
     let mut entries = Vec::new();
-    for count in counts.split(',').map(|count| count.parse().unwrap()) {
+    let kernels = word(3, "general,bvh,baked");
+    for name in names.split(',') {
         let mut seen: Option<Vec<Tally>> = None;
-        for kernel in ["general", "bvh"] {
-            if kernel == "general" && count > 2000 {
+        let spheres = name.parse().unwrap_or(0);
+        for kernel in kernels.split(',') {
+            let most = match kernel {
+                "general" => 2000,
+                "baked" => 128,
+                _ => usize::MAX,
+            };
+            if spheres > most {
                 continue;
             }
-            if let Some((entry, tallies)) = entry(&mut *device, count, kernel) {
+            if let Some((entry, tallies)) = entry(&mut *device, name, kernel) {
                 let other = seen.get_or_insert_with(|| tallies.clone());
-                assert!(*other == tallies, "{count}: the kernels differ");
+                assert!(*other == tallies, "{name}: the kernels differ");
                 entries.push(entry);
             }
         }
@@ -143,15 +152,19 @@ fn main() {
             visit(&mut *device, entry);
         }
     }
-    println!("| spheres | kernel | us a sample | rays a sample | Mrays/s |");
-    println!("|---|---|---|---|---|");
+    println!("| scene | kernel | load, s | us a sample | rays a sample | Mrays/s | of the first |");
+    println!("|---|---|---|---|---|---|---|");
     for entry in &entries {
         let (cost, rays) = (1e6 * median(&entry.costs), entry.rays);
+        let mut alike = entries.iter().filter(|other| other.name == entry.name);
+        let first = alike.next().map_or(f64::NAN, |first| median(&first.costs));
         println!(
-            "| {} | {} | {cost:.3} | {rays:.2} | {:.2} |",
-            entry.count,
+            "| {} | {} | {:.2} | {cost:.3} | {rays:.2} | {:.2} | {:.2} |",
+            entry.name,
             entry.kernel,
-            rays / cost
+            entry.load,
+            rays / cost,
+            1e6 * first / cost
         );
     }
 }

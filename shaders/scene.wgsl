@@ -1,5 +1,6 @@
 // The scene as every kernel that traces it sees it, and what was hit of it. What is hit comes from a
-// traversal: `loops` or `bvh`, files with the same functions of which a kernel gets one.
+// traversal: `loops`, `bvh` or `baked`, files with the same functions of which a kernel gets one; the
+// host prints half of the last.
 //
 // This library and the traversals alone read bindings: group 0 is the scene. The host prints them, as
 // one uniform buffer where the scene is small and as storage buffers where it is not, with the functions

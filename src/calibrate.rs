@@ -131,7 +131,7 @@ fn image(
 ) -> Result<Raster> {
     let mut scene = scene.clone();
     scene.settings.render.seed = seed;
-    let task = Task::new(&scene);
+    let task = Task::one_of_many(&scene);
     let rendering = render::render(device, &task, &mut |_| ControlFlow::Continue(()))?;
     let picture = render::picture(&task, device.info(), &rendering, &[]);
     let encoded = reference.is_some_and(|image| !matches!(image.pixels, Pixels::Linear(_)));

@@ -1,7 +1,7 @@
 //! What can trace: a GPU through wgpu, or the CPU twin. Both answer the same calls.
 
 use crate::error::{Error, Result};
-use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally};
+use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally, Traversal};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -31,6 +31,15 @@ pub struct DeviceInfo {
 }
 
 impl DeviceInfo {
+    /// What a device traces by where `chosen` is wanted: the CPU twin has no compiler, and takes its loops
+    /// for what would be baked.
+    pub fn traversal(&self, chosen: Traversal) -> Traversal {
+        match (self.kind, chosen) {
+            (DeviceKind::Cpu, Traversal::Baked) => Traversal::General,
+            _ => chosen,
+        }
+    }
+
     /// Whether two devices give the same pixels for the same samples: same kind, name, driver and
     /// backend, in whichever slot.
     pub fn is_like(&self, other: &Self) -> bool {

@@ -22,12 +22,12 @@
 //!
 //! | room | what lives there |
 //! |---|---|
-//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops` and `bvh` alone read group 0) |
+//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
 //! | [`knobs`] | the one table of knobs, the presets, the typed settings |
 //! | [`scene`] | the scene's types, the TOML parser with places, the checks |
 //! | [`bvh`] | bodies' bounds as a tree that is walked without a stack |
 //! | [`pack`] | a scene as `#[repr(C)]` buffers and a strategy of override constants |
-//! | [`shader`] | joins the WGSL files, prints constants from the Rust enums, parses and validates |
+//! | [`shader`] | joins the WGSL files, prints constants from the Rust enums and scenes as straight-line code, parses and validates |
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
 //! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
 //! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
@@ -51,7 +51,7 @@
 //!    key with a dimension (vertex, slot) into four numbers. There is no other state: crops, sample
 //!    ranges and splits draw the same numbers.
 //! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
-//!    hit (`loops` or `bvh`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`), the
+//!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`), the
 //!    interruption test (`interruption`), the next direction (`scatter`).
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend

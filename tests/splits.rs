@@ -75,9 +75,9 @@ fn room(assignments: &[&str]) -> Scene {
     Scene::parse("room.toml", ROOM, &assignments).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The scenes that are split: without and with a filter, rules and weights of the other kind; and by a
-/// tree, over enough small balls that there is one.
-fn rooms() -> [Scene; 3] {
+/// The scenes that are split: without and with a filter, rules and weights of the other kind; baked; and
+/// by a tree, over enough small balls that there is one.
+fn rooms() -> [Scene; 4] {
     let balls = balls(100, "gloss");
     let crowded = ROOM.to_string() + &balls;
     let by_tree = [Assignment::parse("render.kernel=bvh").unwrap()];
@@ -85,6 +85,7 @@ fn rooms() -> [Scene; 3] {
     [
         room(&[]),
         room(&["render.preset=montelight"]),
+        room(&["render.kernel=baked"]),
         crowded.unwrap_or_else(|e| panic!("{e}")),
     ]
 }
@@ -363,12 +364,12 @@ fn threads_do_not_matter_to_the_twin() {
 
 #[test]
 fn a_second_load_of_a_scene_changes_nothing() {
-    let [one, two, three] = rooms();
+    let rooms = rooms();
     let check = |device: &mut dyn Device| {
-        let before = take(device, &task(&one));
-        take(device, &task(&two));
-        take(device, &task(&three));
-        assert_eq!(take(device, &task(&one)), before);
+        let before = rooms.each_ref().map(|room| take(device, &task(room)));
+        for (room, film) in rooms.iter().zip(&before) {
+            assert_eq!(take(device, &task(room)), *film);
+        }
     };
     check(&mut Cpu::new());
     if let Some(mut gpu) = support::gpu("one scene after another") {

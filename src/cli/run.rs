@@ -35,10 +35,10 @@ impl Run<'_> {
         let targets = Target::prepare_all(&self.outputs)?;
         let mut device = self.open(output)?;
         let task = Task {
-            scene: self.scene,
             region: self.region,
             samples: self.samples.clone(),
             features: !self.aovs.is_empty(),
+            ..Task::new(self.scene)
         };
         let opening = started.elapsed();
         let rendering = self.render(device.as_mut(), &task, &signals, output);

@@ -18,7 +18,7 @@ pub struct Record {
     pub preset: String,
     /// Every knob with its value, by path, as [`crate::scene::Scene::knobs`] has them.
     pub knobs: Map<String, Value>,
-    /// What `render.kernel` came to: `general` or `bvh`; empty in records older than the knob.
+    /// What `render.kernel` came to: `general`, `bvh` or `baked`; empty in records older than the knob.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kernel: String,
     pub device: DeviceInfo,

@@ -1,6 +1,7 @@
 //! One graphics device: its pipelines, its buffers, and the dispatches of the four kernels.
 
 use super::adapter::Adapters;
+use super::cache::{Cache, Key};
 use super::guard::Guard;
 use super::pieces::{Allowance, Gathered, pieces};
 use super::pipeline::Pipeline;
@@ -8,9 +9,8 @@ use crate::device::{Device, DeviceInfo, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::panics::catch;
-use crate::shader::{Kernel, SceneArray, SceneArrays};
+use crate::shader::{Baked, Kernel, SceneArray, SceneArrays};
 use bytemuck::{Pod, Zeroable};
-use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -31,6 +31,8 @@ struct Loaded {
     packed: Packed,
     allowance: Allowance,
     arrays: SceneArrays,
+    /// The printed part of its tracing kernel; its features are found by the general one.
+    baked: Option<Arc<Baked>>,
     buffers: Vec<wgpu::Buffer>,
 }
 
@@ -39,7 +41,7 @@ struct Loaded {
 pub struct Gpu {
     info: DeviceInfo,
     guard: Guard,
-    pipelines: HashMap<(u32, Option<SceneArrays>, Strategy), Arc<Pipeline>>,
+    pipelines: Cache<Arc<Pipeline>>,
     results: Option<Results>,
     loaded: Option<Loaded>,
 }
@@ -70,22 +72,29 @@ impl Gpu {
         Ok(Self {
             info: info.clone(),
             guard: Guard::new(device, queue, &info.name),
-            pipelines: HashMap::new(),
+            pipelines: Cache::new(),
             results: None,
             loaded: None,
         })
     }
 
-    /// The pipeline of a kernel, compiled on first use. Kernels without a scene ignore its arrays.
+    /// The pipeline of a kernel, compiled on first use. Kernels without a scene have no arrays, and one that
+    /// is baked is for a single scene.
     fn pipeline(
         &mut self,
         kernel: Kernel,
         strategy: &Strategy,
         arrays: Option<SceneArrays>,
+        baked: Option<&Baked>,
     ) -> Result<Arc<Pipeline>> {
-        let key = (kernel as u32, arrays, *strategy);
+        let key = Key {
+            kernel,
+            strategy: *strategy,
+            arrays,
+            baked: baked.map(|baked| baked.hash),
+        };
         if let Some(pipeline) = self.pipelines.get(&key) {
-            return Ok(pipeline.clone());
+            return Ok(pipeline);
         }
         let none = SceneArrays {
             materials: 1,
@@ -94,7 +103,7 @@ impl Gpu {
             lamps: 1,
             ..SceneArrays::default()
         };
-        let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays.unwrap_or(none))?;
+        let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays.unwrap_or(none), baked)?;
         let pipeline = Arc::new(pipeline);
         self.pipelines.insert(key, pipeline.clone());
         Ok(pipeline)
@@ -176,7 +185,8 @@ impl Gpu {
         let mut job = loaded.packed.job(rect, first_sample, samples);
         job.steps = loaded.allowance.steps(job.steps, rect);
         let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
-        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays))?;
+        let baked = loaded.baked.clone();
+        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays), baked.as_deref())?;
         let count = rect.area() * runs(first_sample, samples) as usize;
         let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
         self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
@@ -249,7 +259,7 @@ impl Gpu {
         function: crate::shader::Probe,
         inputs: &[ProbeInput],
     ) -> Result<Vec<ProbeOutput>> {
-        let pipeline = self.pipeline(Kernel::Probe, strategy, None)?;
+        let pipeline = self.pipeline(Kernel::Probe, strategy, None, None)?;
         let job = ProbeJob {
             function: function as u32,
             count: inputs.len() as u32,
@@ -303,6 +313,9 @@ impl Device for Gpu {
             self.cut_short(&format!("{bodies} bodies are more than it goes through"))
         })?;
         let arrays = SceneArrays::new(scene);
+        let is_baked = scene.traversal == Traversal::Baked;
+        let baked = is_baked.then(|| Baked::new(scene, arrays)).transpose()?;
+        let baked = baked.map(Arc::new);
         let guard = &self.guard;
         let bytes = |array: &SceneArray| array_bytes(array, scene);
         let uniform: Vec<u8> = arrays.uniform().iter().flat_map(bytes).collect();
@@ -317,6 +330,7 @@ impl Device for Gpu {
             packed: scene.clone(),
             allowance,
             arrays,
+            baked,
             buffers,
         });
         // Drivers compile at the first dispatch: one sample of one pixel pays for it here.
@@ -348,7 +362,7 @@ impl Device for Gpu {
             ..FeatureJob::default()
         };
         let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
-        let pipeline = self.pipeline(Kernel::Features, &strategy, Some(arrays))?;
+        let pipeline = self.pipeline(Kernel::Features, &strategy, Some(arrays), None)?;
         let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
         let features: Vec<Feature> =
             self.dispatch(&pipeline, true, &inputs, tiles(rect), rect.area())?;
@@ -359,7 +373,7 @@ impl Device for Gpu {
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {
-        let pipeline = self.pipeline(Kernel::Points, strategy, None)?;
+        let pipeline = self.pipeline(Kernel::Points, strategy, None, None)?;
         let inputs = [(bytemuck::bytes_of(job), wgpu::BufferUsages::UNIFORM)];
         let groups = [job.count.div_ceil(64), 1];
         self.dispatch(&pipeline, false, &inputs, groups, job.count as usize)

@@ -3,6 +3,7 @@
 //! is caught here and read as a lost device.
 
 mod adapter;
+mod cache;
 mod device;
 mod guard;
 mod pieces;

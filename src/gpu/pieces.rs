@@ -7,7 +7,7 @@
 
 use crate::device::{DeviceInfo, DeviceKind, run_ranges};
 use crate::knobs::LightStrategy;
-use crate::pack::{Packed, RUN_LENGTH, Rect, Tally};
+use crate::pack::{Packed, RUN_LENGTH, Rect, Tally, Traversal};
 
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
@@ -97,9 +97,12 @@ impl Allowance {
 }
 
 /// The most loop iterations of one step: its own, and those over the bodies for the ray and for
-/// each lamp's shadow ray. A loop's last look at its condition counts as one.
+/// each lamp's shadow ray. A loop's last look at its condition counts as one. Baked bodies take none.
 fn iterations(scene: &Packed) -> u64 {
-    let bodies = (scene.spheres.len() + scene.boxes.len()) as u64 + 3;
+    let bodies = match scene.traversal {
+        Traversal::Baked => 0,
+        _ => (scene.spheres.len() + scene.boxes.len()) as u64 + 3,
+    };
     let lamps = match scene.strategy.light_strategy {
         LightStrategy::Hit => 0,
         _ => scene.lamps.len() as u64,

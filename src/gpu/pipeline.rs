@@ -4,7 +4,7 @@ use super::guard::Guard;
 use crate::error::Result;
 use crate::knobs::Choice;
 use crate::pack::Strategy;
-use crate::shader::{self, Kernel, SceneArrays};
+use crate::shader::{self, Baked, Kernel, SceneArrays};
 use std::borrow::Cow;
 
 /// What a kernel binds in group 1, after the scene in group 0.
@@ -82,8 +82,12 @@ impl Pipeline {
         kernel: Kernel,
         strategy: &Strategy,
         arrays: SceneArrays,
+        baked: Option<&Baked>,
     ) -> Result<Self> {
-        let joined = shader::source(kernel, arrays)?;
+        let joined = match baked {
+            Some(baked) => shader::baked_source(baked)?,
+            None => shader::source(kernel, arrays)?,
+        };
         let module = shader::parse(&joined)?;
         let constants = constants(&module, strategy);
         let scene = if binds_scene(kernel) {

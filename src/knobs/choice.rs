@@ -192,12 +192,14 @@ choice! {
 choice! {
     /// How rays find bodies; every way finds the same.
     RenderKernel, "RENDER_KERNEL" {
-        /// `bvh` for many bodies, `general` for few.
+        /// `bvh` for many bodies; for few `baked` where the work pays for compiling it, else `general`.
         Auto = "auto",
         /// One body after the other.
         General = "general",
         /// By a bounding volume hierarchy.
         Bvh = "bvh",
+        /// One body after the other, in code that is printed and compiled for the scene.
+        Baked = "baked",
     }
 }
 

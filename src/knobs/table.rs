@@ -136,7 +136,7 @@ pub static KNOBS: &[Knob] = &[
     knob("render.max_bounces", integer(0, 1_000_000), "reflections", whole(8), "reflections a path may make: 0 is emission alone, 1 adds direct light"),
     knob("render.clamp", OptionalNumber(Range::POSITIVE), "radiance",
         Presets([Value::Number(1.0), Value::Off, Value::Off, Value::Off]), "the largest radiance that a sample may have in a channel"),
-    knob("render.kernel", Name(RenderKernel::NAMES), "", Default(text("auto")), "how rays find bodies, which changes no picture: one after the other, by a tree (bvh), or as their number says"),
+    knob("render.kernel", Name(RenderKernel::NAMES), "", Default(text("auto")), "how rays find bodies, which changes no picture: one after the other (general), the same in code compiled for the scene (baked), by a tree (bvh), or as number and work say"),
     knob("render.preset", Name(Preset::NAMES), "", Default(text("reference")), "the set of sampling knobs to start from"),
 
     knob("background.emission", Triple(Range::NOT_NEGATIVE), "radiance", three(0.0, 0.0, 0.0), "what rays that leave the scene see, R, G, B"),

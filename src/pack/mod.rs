@@ -36,10 +36,17 @@ pub struct Packed {
     /// The bodies once more where rays find them by a tree.
     pub hierarchy: Option<Arc<Hierarchy>>,
     pub strategy: Strategy,
+    /// How rays find its bodies.
+    pub traversal: Traversal,
 }
 
 impl Packed {
     pub fn new(scene: &Scene) -> Self {
+        Self::by(scene, Traversal::of(scene))
+    }
+
+    /// For a traversal that is already chosen.
+    pub fn by(scene: &Scene, traversal: Traversal) -> Self {
         let eye = scene.camera.position;
         let settings = &scene.settings;
         let (spheres, lamps) = pack_spheres(scene, eye);
@@ -52,7 +59,7 @@ impl Packed {
             rotated,
             lamps.len() as u32,
         );
-        let by_tree = Traversal::of(scene) == Traversal::Bvh;
+        let by_tree = traversal == Traversal::Bvh;
         let hierarchy = by_tree.then(|| Hierarchy::new(&spheres, &boxes, straight));
         if let Some(hierarchy) = &hierarchy {
             strategy.outside_sphere_count = hierarchy.spheres.len() as u32;
@@ -74,6 +81,7 @@ impl Packed {
             lamps,
             hierarchy: hierarchy.map(Arc::new),
             strategy,
+            traversal,
         }
     }
 

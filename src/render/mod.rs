@@ -11,7 +11,7 @@ pub use plan::{Block, Plan};
 use crate::device::{Device, run_ranges};
 use crate::error::Result;
 use crate::film::Film;
-use crate::pack::{Feature, Packed, Rect};
+use crate::pack::{Feature, Packed, Rect, Traversal};
 use crate::scene::Scene;
 use std::ops::{ControlFlow, Range};
 use std::time::{Duration, Instant};
@@ -26,6 +26,8 @@ pub struct Task<'a> {
     pub samples: Range<u64>,
     /// Whether first-hit features are wanted too.
     pub features: bool,
+    /// How rays find bodies.
+    pub traversal: Traversal,
 }
 
 impl<'a> Task<'a> {
@@ -36,6 +38,16 @@ impl<'a> Task<'a> {
             region: whole(scene),
             samples: 0..scene.settings.render.samples,
             features: false,
+            traversal: Traversal::of(scene),
+        }
+    }
+
+    /// [`Task::new`] for one of many scenes whose values differ: nothing is compiled for this one alone
+    /// unless its knobs ask for it.
+    pub fn one_of_many(scene: &'a Scene) -> Self {
+        Self {
+            traversal: Traversal::of_one_of_many(scene),
+            ..Self::new(scene)
         }
     }
 }
@@ -96,7 +108,7 @@ pub fn render_plan(
     watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Rendering> {
     let started = Instant::now();
-    device.load(&Packed::new(task.scene))?;
+    device.load(&Packed::by(task.scene, task.traversal))?;
     let features = task
         .features
         .then(|| device.features(task.region))

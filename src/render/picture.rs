@@ -3,7 +3,6 @@
 use super::{Rendering, Task, whole};
 use crate::device::DeviceInfo;
 use crate::film::{Aov, Features, Film, Picture, Record, Seconds};
-use crate::pack::Traversal;
 
 /// Identifies a scene's text in records.
 pub fn scene_hash(text: &str) -> String {
@@ -33,7 +32,7 @@ fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record {
         shader_hash: crate::shader::library_hash(),
         preset: settings.preset.to_string(),
         knobs: scene.knobs.clone(),
-        kernel: Traversal::of(scene).to_string(),
+        kernel: device.traversal(task.traversal).to_string(),
         device: device.clone(),
         devices: Vec::new(),
         width: task.region.width(),

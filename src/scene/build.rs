@@ -4,11 +4,14 @@
 use super::draft::{Draft, Group};
 use super::faults::{Faults, Origin};
 use super::{Camera, Scene, Source};
-use crate::knobs::{KNOBS, Knob, Preset, Settings, Value, choice, find, in_section};
+use crate::knobs::{KNOBS, Knob, Preset, RenderKernel, Settings, Value, choice, find, in_section};
 use std::collections::HashMap;
 
 /// Pixels of a picture.
 const MOST_PIXELS: u64 = 1 << 28;
+
+/// Bodies that `render.kernel = "baked"` takes: compilers need 8 ms for each of few, and 20 for each of so many.
+pub const MOST_BAKED: usize = 256;
 
 /// The scene, or None if there are faults.
 pub(crate) fn build(
@@ -40,6 +43,7 @@ pub(crate) fn build(
         .collect();
     let spheres = builder.spheres(&names);
     let boxes = builder.boxes(&names);
+    builder.kernel(&settings, spheres.len() + boxes.len());
     let knobs = builder.record(strategy.as_ref());
     faults.is_empty().then_some(Scene {
         source,
@@ -146,6 +150,19 @@ impl Builder<'_, '_, '_> {
                     message,
                     Some("it may have 2^28 (268435456) pixels at most".into()),
                 )
+            });
+        }
+    }
+
+    /// Whether the kernel that was asked for takes the bodies.
+    fn kernel(&mut self, settings: &Settings, bodies: usize) {
+        if settings.render.kernel == RenderKernel::Baked && bodies > MOST_BAKED {
+            let origin = self.origin("render.kernel");
+            self.faults.add(origin, || {
+                let message = format!(
+                    "`render.kernel = \"baked\"` takes up to {MOST_BAKED} bodies, and the scene has {bodies}"
+                );
+                (message, Some("set it to `auto` or `bvh`".into()))
             });
         }
     }

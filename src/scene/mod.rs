@@ -18,6 +18,7 @@ mod solid;
 mod sweep;
 
 pub use assign::Assignment;
+pub use build::MOST_BAKED;
 pub use faults::Mistakes;
 pub use finding::Finding;
 pub use load::MOST_BYTES;

@@ -121,14 +121,15 @@ impl SceneArrays {
     /// tree are few, and every ray tries them.
     pub fn uniform(&self) -> Vec<SceneArray> {
         let (small, outside) = (self.small(), self.outside());
-        let whole = match self.traversal() {
-            Traversal::General => [&small[..], &[self.spheres()]].concat(),
-            Traversal::Bvh => [&outside[..], &small].concat(),
+        let by_tree = self.nodes > 0;
+        let whole = match by_tree {
+            false => [&small[..], &[self.spheres()]].concat(),
+            true => [&outside[..], &small].concat(),
         };
-        match self.traversal() {
+        match by_tree {
             _ if bytes(&whole) <= UNIFORM_BYTES => whole,
-            Traversal::General => Vec::new(),
-            Traversal::Bvh => outside.to_vec(),
+            false => Vec::new(),
+            true => outside.to_vec(),
         }
     }
 
@@ -147,7 +148,13 @@ impl SceneArrays {
 
     /// Bind group 0 and the functions that read it: `sphere_at(i)` and the like.
     pub(super) fn declarations(&self) -> String {
+        self.declarations_but(&[])
+    }
+
+    /// Without the functions called `elsewhere`, which another text has.
+    pub(super) fn declarations_but(&self, elsewhere: &[&str]) -> String {
         let (uniform, storage) = (self.uniform(), self.storage());
+        let is_here = |array: &SceneArray| !elsewhere.contains(&array.name);
         let mut text = String::new();
         if !uniform.is_empty() {
             let member = |array: &SceneArray| {
@@ -164,7 +171,8 @@ impl SceneArrays {
                 "struct SceneData {{\n{members}}}\n@group(0) @binding(0) var<uniform> scene_data: SceneData;\n"
             );
             let read = |array: &SceneArray| array.accessor(&format!("scene_data.{}_", array.name));
-            text.extend(uniform.iter().map(read));
+            let here = uniform.iter().filter(|array| is_here(array));
+            text.extend(here.map(read));
         }
         let first = usize::from(!uniform.is_empty());
         for (binding, array) in (first..).zip(&storage) {
@@ -172,7 +180,9 @@ impl SceneArrays {
             text += &format!(
                 "@group(0) @binding({binding}) var<storage, read> {name}_: array<{element}>;\n"
             );
-            text += &array.accessor(&format!("{name}_"));
+            if is_here(array) {
+                text += &array.accessor(&format!("{name}_"));
+            }
         }
         text
     }

@@ -57,6 +57,7 @@ fn file_of(import: &str, traversal: Traversal) -> &str {
     match (import, traversal) {
         ("traversal", Traversal::General) => "loops",
         ("traversal", Traversal::Bvh) => "bvh",
+        ("traversal", Traversal::Baked) => "baked",
         _ => import,
     }
 }

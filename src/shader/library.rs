@@ -9,6 +9,7 @@ macro_rules! library {
 }
 
 library!(
+    "baked",
     "box",
     "bvh",
     "camera",

@@ -2,16 +2,18 @@
 //! define them, parsed and validated without a GPU.
 
 mod arrays;
+mod bake;
 mod join;
 mod library;
 
 pub use arrays::{SceneArray, SceneArrays};
+pub use bake::Baked;
 pub use join::{Joined, join};
 pub use library::LIBRARY;
 
 use crate::error::{Error, Result};
 use crate::knobs::*;
-use crate::pack::{LastRay, RUN_LENGTH};
+use crate::pack::{LastRay, RUN_LENGTH, Traversal};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 choice! {
@@ -77,6 +79,15 @@ pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
         Kernel::Points | Kernel::Probe => String::new(),
     };
     join(kernel.name(), &(constants() + &scene), arrays.traversal())
+}
+
+/// The whole text of the tracing kernel for one scene.
+///
+/// # Errors
+/// As [`source`].
+pub fn baked_source(baked: &Baked) -> Result<Joined> {
+    let generated = constants() + &baked.text;
+    join(Kernel::Trace.name(), &generated, Traversal::Baked)
 }
 
 /// Parses a kernel's text; a fault is reported with the file and line it stands in.

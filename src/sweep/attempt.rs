@@ -53,7 +53,7 @@ pub(super) fn persist(
 
 fn attempt(scene: &Scene, device: &mut dyn Device, rules: Rules, hear: &mut Hear) -> Attempt {
     let started = Instant::now();
-    let task = Task::new(scene);
+    let task = Task::one_of_many(scene);
     let (mut stopped, mut late) = (false, false);
     let rendering = render::render(device, &task, &mut |progress| {
         late = rules.timeout.is_some_and(|limit| started.elapsed() > limit);

@@ -116,9 +116,14 @@ pub fn bodies(kind: &str, count: usize, stream: &mut Stream) -> (Vec<Sphere>, Ve
     (spheres, boxes)
 }
 
-/// A crowd with a lamp, for each of the two kernels.
+/// A crowd with a lamp, for the general kernel and the tree's.
 pub fn crowd(kind: &str, count: usize, seed: u64) -> [Scene; 2] {
-    ["general", "bvh"].map(|kernel| {
+    crowd_by(["general", "bvh"], kind, count, seed)
+}
+
+/// A crowd with a lamp, for each of two kernels.
+pub fn crowd_by(kernels: [&str; 2], kind: &str, count: usize, seed: u64) -> [Scene; 2] {
+    kernels.map(|kernel| {
         let mut scene = empty(kernel);
         let (spheres, boxes) = bodies(kind, count, &mut Stream::new(seed));
         scene.spheres = spheres;

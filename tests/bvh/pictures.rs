@@ -3,46 +3,10 @@
 
 use super::crowds::{KINDS, crowd, empty};
 use crate::support::bench::benches;
-use lampray::device::Device;
+use crate::support::same::{rendering, same};
 use lampray::pack::{Feature, Traversal};
-use lampray::render::{Rendering, Task, render, whole};
+use lampray::render::whole;
 use lampray::scene::{Scene, Sphere};
-use std::ops::ControlFlow;
-
-fn rendering(device: &mut dyn Device, scene: &Scene) -> Rendering {
-    let task = Task {
-        samples: 0..4,
-        features: true,
-        ..Task::new(scene)
-    };
-    render(device, &task, &mut |_| ControlFlow::Continue(()))
-        .unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// Every pixel of two films and of their first hits is the same, bit for bit.
-fn same(a: &Rendering, b: &Rendering, what: &str) {
-    let pixels = (0..a.film.sums.len()).filter(|&pixel| {
-        let of = |one: &Rendering| {
-            (
-                one.film.sums[pixel],
-                one.film.squares[pixel],
-                one.features.as_ref().unwrap()[pixel],
-            )
-        };
-        of(a) != of(b)
-    });
-    let unlike: Vec<_> = pixels
-        .map(|pixel| (pixel, a.film.sums[pixel], b.film.sums[pixel]))
-        .collect();
-    assert!(
-        unlike.is_empty(),
-        "{what}: {} pixels differ: {:?}",
-        unlike.len(),
-        &unlike[..unlike.len().min(4)]
-    );
-    assert_eq!(a.film.rays, b.film.rays, "{what}");
-    assert!(a.film == b.film, "{what}");
-}
 
 fn ids(features: &[Feature]) -> usize {
     let mut ids: Vec<_> = features.iter().map(|feature| feature.id).collect();

@@ -7,6 +7,7 @@ pub mod bench;
 pub mod chance;
 pub mod gate;
 pub mod quadrature;
+pub mod same;
 pub mod stream;
 
 use lampray::gpu::{Gpu, adapters};

@@ -52,7 +52,7 @@ pub(super) fn foretell(
 /// Seconds that a path takes, by a small part of a render: the first time it is compiled, too.
 fn time_a_path(scene: &Scene, device: &mut dyn Device) -> Result<f64> {
     const LONGEST: Duration = Duration::from_secs(2);
-    let mut task = Task::new(scene);
+    let mut task = Task::one_of_many(scene);
     task.samples.end = task.samples.end.min(4);
     let mut pilot = || {
         let started = Instant::now();
