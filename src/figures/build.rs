@@ -29,16 +29,13 @@ pub fn picture(pixels: &[[f32; 3]], size: [u32; 2], exposure: f64, note: String)
     }
 }
 
-/// Draws a frame just inside a part of a picture, light on dark and dark on light.
+/// Draws a frame just inside a part of a picture, light on dark and dark on light; as thick as is seen where
+/// the picture is shown small.
 pub fn outline(shown: &mut Shown, rect: Rect) {
+    let thick = (shown.width / 128).max(1);
     let edge = |x: u32, y: u32| {
-        [
-            x == rect.x0,
-            x + 1 == rect.x1,
-            y == rect.y0,
-            y + 1 == rect.y1,
-        ]
-        .contains(&true)
+        let reach = [x - rect.x0, rect.x1 - 1 - x, y - rect.y0, rect.y1 - 1 - y];
+        reach.iter().any(|away| *away < thick)
     };
     for y in rect.y0..rect.y1 {
         for x in (rect.x0..rect.x1).filter(|x| edge(*x, y)) {

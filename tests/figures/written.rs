@@ -105,10 +105,13 @@ fn two_files_of_one_name_are_a_fault() {
     assert!(files::all(&two, &about()).is_err());
 }
 
-/// For eyes and for the check in a browser: writes the sample to the folder that is named.
+/// For eyes and for the check in a browser, which name a folder with FIGURES_FOLDER.
 #[test]
-#[ignore = "writes where FIGURES_FOLDER says"]
 fn sample_is_written() {
-    let folder = std::env::var_os("FIGURES_FOLDER").expect("FIGURES_FOLDER names a folder");
-    files::write(folder.as_ref(), &figures(), &about()).unwrap();
+    let own = tempfile::tempdir().unwrap();
+    let named = std::env::var_os("FIGURES_FOLDER");
+    let folder = named.map_or(own.path().to_path_buf(), Into::into);
+    let names = files::write(&folder, &figures(), &about()).unwrap();
+    assert!(names.iter().any(|name| name == "index.html"));
+    assert!(names.iter().all(|name| folder.join(name).is_file()));
 }

@@ -5,7 +5,7 @@ mod letters;
 
 use super::{Pictures, Shown};
 use crate::error::{Error, Result};
-use image::{ImageFormat, Rgba, RgbaImage};
+use image::{ImageFormat, Rgba, RgbaImage, imageops};
 use letters::{Size, draw_lines, wrap};
 use std::io::Cursor;
 
@@ -13,6 +13,8 @@ use std::io::Cursor;
 const MOST_WIDTH: u32 = 1030;
 const MOST_SIDE: u32 = 400;
 const MOST_TIMES: u32 = 4;
+/// Pictures side by side that are wider than this are halved on a sheet.
+const MOST_SHEET: u32 = 900;
 const GAP: u32 = 14;
 const BETWEEN_ROWS: u32 = 20;
 const MOST_NAME: u32 = 170;
@@ -66,7 +68,9 @@ fn cells(pictures: &Pictures) -> impl Iterator<Item = &Shown> {
 /// # Errors
 /// [`Error::Internal`] where a picture has not as many bytes as pixels.
 pub(super) fn sheet(pictures: &Pictures) -> Result<Vec<u8>> {
-    let plan = Plan::of(pictures);
+    let enlarged = enlarged(pictures);
+    let pictures = &reduced(pictures)?;
+    let plan = Plan::of(pictures, enlarged);
     let mut image = RgbaImage::new(plan.width, plan.height);
     for (column, name) in pictures.columns.iter().enumerate() {
         let lines = wrap(name, Size::Name, plan.side);
@@ -96,6 +100,33 @@ pub(super) fn sheet(pictures: &Pictures) -> Result<Vec<u8>> {
     Ok(bytes.into_inner())
 }
 
+/// With every second pixel of every second row where a sheet would be wider than a README shows it: their noise
+/// stays what it is, which a mean would halve. The page has the pictures whole.
+fn reduced(pictures: &Pictures) -> Result<Pictures> {
+    let mut smaller = pictures.clone();
+    if widest(pictures) * columns(pictures) as u32 > MOST_SHEET {
+        for cell in smaller.rows.iter_mut().flat_map(|row| &mut row.cells) {
+            halve(cell)?;
+        }
+    }
+    Ok(smaller)
+}
+
+fn halve(shown: &mut Shown) -> Result<()> {
+    let (width, height) = (shown.width.div_ceil(2), shown.height.div_ceil(2));
+    let bytes = std::mem::take(&mut shown.rgb);
+    let fault = || {
+        Error::Internal(format!(
+            "a picture of {} x {} without its pixels",
+            shown.width, shown.height
+        ))
+    };
+    let image = image::RgbImage::from_raw(shown.width, shown.height, bytes).ok_or_else(fault)?;
+    let small = imageops::resize(&image, width, height, imageops::FilterType::Nearest);
+    (shown.width, shown.height, shown.rgb) = (width, height, small.into_raw());
+    Ok(())
+}
+
 /// Where everything is on a sheet.
 struct Plan {
     enlarged: u32,
@@ -110,8 +141,7 @@ struct Plan {
 }
 
 impl Plan {
-    fn of(pictures: &Pictures) -> Self {
-        let enlarged = enlarged(pictures);
+    fn of(pictures: &Pictures, enlarged: u32) -> Self {
         let side = widest(pictures) * enlarged;
         let row_names = pictures
             .rows
@@ -146,13 +176,7 @@ impl Plan {
             });
             lower += heights.max().unwrap_or(0) + BETWEEN_ROWS;
         }
-        let columns = pictures
-            .rows
-            .iter()
-            .map(|row| row.cells.len())
-            .max()
-            .unwrap_or(0);
-        let columns = columns.max(pictures.columns.len()) as u32;
+        let columns = columns(pictures) as u32;
         Self {
             enlarged,
             side,
