@@ -18,7 +18,7 @@ use std::time::Instant;
 /// Renders the sweeps that they are made of, as far as they are not there yet, then draws them: index.html (one
 /// file, works offline), claims.md, every plot as SVG, pictures as PNG, the numbers as CSV and
 /// figures.json. DIR/data keeps the sweeps, each with its own runs.jsonl, table.csv and report.html.
-/// --quick takes about a minute on two cores, all of it about a quarter of an hour.
+/// --quick takes about a minute on two quiet cores, all of it under ten.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lampray figures --quick
