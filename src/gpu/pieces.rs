@@ -5,7 +5,7 @@
 //! whatever its paths do. In a tree they could visit every node, but never do: there each lane counts,
 //! and stops without a tally at its share of the iterations; what it left is traced again in smaller pieces.
 
-use crate::device::{DeviceInfo, DeviceKind, run_ranges};
+use crate::device::{Block, DeviceInfo, DeviceKind, run_ranges};
 use crate::knobs::LightStrategy;
 use crate::pack::{Packed, RUN_LENGTH, Rect, Tally, Traversal};
 
@@ -110,13 +110,18 @@ fn iterations(scene: &Packed) -> u64 {
     2 + bodies + lamps * (1 + bodies)
 }
 
-/// First sample and number of samples of each piece of a range. Pieces end where the sample index
-/// is a multiple of `most`: they never depend on how the work was split before.
-pub fn pieces(first_sample: u64, samples: u32, most: u32) -> impl Iterator<Item = (u64, u32)> {
-    let (end, most) = (first_sample + u64::from(samples), u64::from(most));
+/// The pieces of a block, of at most `most` samples each. They end where the sample index is a multiple of
+/// `most`: they never depend on how the work was split before.
+pub fn pieces(block: Block, most: u32) -> impl Iterator<Item = Block> {
+    let (first_sample, most) = (block.first_sample, u64::from(most));
+    let end = first_sample + u64::from(block.samples);
     (first_sample / most..end.div_ceil(most)).map(move |piece| {
         let start = (piece * most).max(first_sample);
-        (start, (((piece + 1) * most).min(end) - start) as u32)
+        Block {
+            first_sample: start,
+            samples: (((piece + 1) * most).min(end) - start) as u32,
+            ..block
+        }
     })
 }
 
@@ -198,6 +203,20 @@ mod tests {
         }
     }
 
+    fn block(first_sample: u64, samples: u32) -> Block {
+        let rect = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 1,
+            y1: 1,
+        };
+        Block {
+            rect,
+            first_sample,
+            samples,
+        }
+    }
+
     #[test]
     fn only_old_software_drivers_stop_early() {
         let device = |kind, driver: &str| DeviceInfo {
@@ -221,11 +240,13 @@ mod tests {
     fn pieces_cover_a_range_and_end_at_fixed_places() {
         for (first, samples, most) in [(0, 64, 4), (5, 40, 8), (7, 1, 1), ((1 << 40) + 3, 99, 32)] {
             let mut next = first;
-            for (start, count) in pieces(first, samples, most) {
-                assert_eq!(start, next);
-                next += u64::from(count);
+            for piece in pieces(block(first, samples), most) {
+                assert_eq!(piece.first_sample, next);
+                next += u64::from(piece.samples);
                 let end = first + u64::from(samples);
-                assert!(count <= most && (next == end || next.is_multiple_of(u64::from(most))));
+                assert!(
+                    piece.samples <= most && (next == end || next.is_multiple_of(u64::from(most)))
+                );
             }
             assert_eq!(next, first + u64::from(samples));
         }
@@ -235,7 +256,8 @@ mod tests {
     fn pieces_add_up_to_runs() {
         let values: Vec<f32> = (0..24u8).map(|i| f32::from(i * 37 % 11)).collect();
         let mut gathered = Gathered::new(1);
-        for (start, count) in pieces(4, 24, 4) {
+        for piece in pieces(block(4, 24), 4) {
+            let (start, count) = (piece.first_sample, piece.samples);
             let from = start as usize - 4;
             gathered.add(start, count, &[tally(&values[from..from + count as usize])]);
         }

@@ -1,6 +1,8 @@
 //! Which samples of which pixels each dispatch takes. The picture never depends on it: a pixel's
 //! samples are added in order, in runs that end at fixed indices.
 
+use super::look;
+use crate::device::Block;
 use crate::pack::{RUN_LENGTH, Rect};
 use std::ops::Range;
 use std::time::Duration;
@@ -21,19 +23,12 @@ const WIDE: u64 = 4096;
 /// The most tallies that a dispatch brings back: 32 MiB of them.
 const MOST_TALLIES: u64 = 1 << 20;
 
-/// One dispatch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Block {
-    pub rect: Rect,
-    pub first_sample: u64,
-    pub samples: u32,
-}
-
-impl Block {
-    /// Number of paths.
-    pub fn paths(&self) -> u64 {
-        self.rect.area() as u64 * u64::from(self.samples)
-    }
+/// The most tallies that a block of a task can bring back.
+pub(super) fn most_tallies(region: Rect, samples: &Range<u64>) -> u64 {
+    let runs = (samples.end - samples.start) / u64::from(RUN_LENGTH) + 2;
+    (region.area() as u64)
+        .saturating_mul(runs)
+        .min(MOST_TALLIES)
 }
 
 /// Hands out blocks until every pixel of a region has every sample of a range.
@@ -51,6 +46,8 @@ pub struct Plan {
     budget: u64,
     /// Blocks of exactly this many samples, whatever time they take.
     fixed: bool,
+    /// Whether bands end where somebody looks at the error.
+    looks: bool,
 }
 
 impl Plan {
@@ -63,6 +60,42 @@ impl Plan {
             next_pixel: 0,
             budget: FIRST_BUDGET,
             fixed: false,
+            looks: false,
+        }
+    }
+
+    /// What is left where some samples have been taken: `counts` are those of each pixel, row by row. None
+    /// where no plan can have left them so.
+    pub fn resume(region: Rect, samples: Range<u64>, counts: &[u64]) -> Option<Self> {
+        let (low, high) = (*counts.iter().min()?, *counts.iter().max()?);
+        let done = counts.iter().take_while(|count| **count == high).count();
+        let in_order = counts[done..].iter().all(|count| *count == low);
+        let [start, end] = [low, high].map(|count| samples.start.checked_add(count));
+        let (start, end) = (start?, end?);
+        let whole = |index: u64| {
+            index == samples.start
+                || index == samples.end
+                || index.is_multiple_of(u64::from(RUN_LENGTH))
+        };
+        let fits = counts.len() == region.area() && end <= samples.end;
+        if !(in_order && fits && whole(start) && whole(end)) {
+            return None;
+        }
+        let next_pixel = if low == high { 0 } else { done as u64 };
+        // Where all have the same, the band in hand is done.
+        let band = if low == high { end..end } else { start..end };
+        Some(Self {
+            band,
+            next_pixel,
+            ..Self::new(region, samples)
+        })
+    }
+
+    /// The plan with bands that end wherever [`look::next`] says.
+    pub fn with_looks(self) -> Self {
+        Self {
+            looks: true,
+            ..self
         }
     }
 
@@ -118,7 +151,12 @@ impl Plan {
         let affordable = self.budget / pixels;
         let whole = self.budget / self.region.area() as u64;
         let wanted = affordable.min(LONG).max(whole).clamp(run, 64 * LONG);
-        let end = (start / run + wanted / run) * run;
+        let mut end = (start / run)
+            .saturating_add(wanted / run)
+            .saturating_mul(run);
+        if self.looks {
+            end = end.min(look::next(&self.samples, start));
+        }
         self.band = start..end.min(self.samples.end);
         Some(())
     }
@@ -211,6 +249,84 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// Wherever a render stops, the rest of it takes every other sample once.
+    #[test]
+    fn a_plan_goes_on_where_another_stopped() {
+        let region = Rect {
+            x0: 3,
+            y0: 5,
+            x1: 14,
+            y1: 12,
+        };
+        for samples in [0..1, 7..100, 0..64] {
+            for blocks in 0.. {
+                let mut plan = Plan::with_budget(region, samples.clone(), 500);
+                let mut counts = vec![0; region.area()];
+                let taken = (0..blocks)
+                    .map_while(|_| plan.next_block())
+                    .collect::<Vec<_>>();
+                for block in &taken {
+                    for y in block.rect.y0..block.rect.y1 {
+                        for x in block.rect.x0..block.rect.x1 {
+                            let place = (y - region.y0) * region.width() + (x - region.x0);
+                            counts[place as usize] += u64::from(block.samples);
+                        }
+                    }
+                }
+                let mut rest = Plan::resume(region, samples.clone(), &counts).unwrap();
+                let paths: u64 = std::iter::from_fn(|| rest.next_block())
+                    .map(|block| block.paths())
+                    .sum();
+                let all = region.area() as u64 * (samples.end - samples.start);
+                assert_eq!(paths + counts.iter().sum::<u64>(), all);
+                let mut next = Plan::resume(region, samples.clone(), &counts).unwrap();
+                if let Some(block) = next.next_block() {
+                    let corner =
+                        (block.rect.y0 - region.y0) * region.width() + block.rect.x0 - region.x0;
+                    assert_eq!(samples.start + counts[corner as usize], block.first_sample);
+                }
+                if taken.len() < blocks {
+                    break;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_no_plan_leaves_is_refused() {
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 2,
+            y1: 2,
+        };
+        let resume = |counts: &[u64]| Plan::resume(region, 0..64, counts);
+        assert!(resume(&[32, 16, 16, 16]).is_some());
+        assert!(resume(&[16, 32, 16, 16]).is_none(), "out of order");
+        assert!(resume(&[48, 32, 16, 16]).is_none(), "three counts");
+        assert!(resume(&[16, 16, 16]).is_none(), "another size");
+        assert!(resume(&[80, 80, 80, 80]).is_none(), "too many");
+        assert!(resume(&[17, 17, 17, 17]).is_none(), "a broken run");
+        assert!(resume(&[u64::MAX, 0, 0, 0]).is_none(), "beyond all numbers");
+        assert!(resume(&[64; 4]).is_some_and(|mut plan| plan.next_block().is_none()));
+    }
+
+    #[test]
+    fn bands_end_where_somebody_looks() {
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 8,
+            y1: 8,
+        };
+        let mut plan = Plan::with_budget(region, 5..1000, 1 << 20).with_looks();
+        let ends: Vec<u64> = std::iter::from_fn(|| plan.next_block())
+            .map(|block| block.first_sample + u64::from(block.samples))
+            .collect();
+        assert_eq!(ends[..3], [80, 96, 112]);
+        assert_eq!(ends.last(), Some(&1000));
     }
 
     #[test]
