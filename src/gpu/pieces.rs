@@ -11,6 +11,9 @@ use crate::pack::{Packed, RUN_LENGTH, Rect, Tally, Traversal};
 
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
+/// Steps of a lane that are not too long for one dispatch, a fraction of a second each million: only where paths
+/// may be longer than a hundred thousand bounces does a run come in pieces.
+const LONG_LANE: u64 = 1 << 21;
 /// Lanes that a software driver runs in step, 32 bits each in its widest vectors: their loops go on
 /// until the last is done, so that together they may take no more than one may.
 const LANES: u64 = 8;
@@ -43,9 +46,10 @@ impl Allowance {
     /// None where a device cannot take a single step of the scene.
     pub fn new(device: &DeviceInfo, scene: &Packed) -> Option<Self> {
         if !stops_early(device) {
+            let samples = (LONG_LANE / (u64::from(scene.max_bounces) + 1)).max(1);
             return Some(Self {
                 steps: u32::MAX,
-                samples: 1 << 31,
+                samples: 1 << samples.ilog2(),
                 counted: scene.hierarchy.is_some(),
                 iterations: u32::MAX,
                 alone: u32::MAX,

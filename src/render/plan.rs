@@ -14,7 +14,15 @@ const TARGET: Duration = Duration::from_millis(150);
 /// second.
 const FIRST_BUDGET: u64 = 64;
 /// From one dispatch to the next the plan grows at most by this factor: pixels differ in cost.
-const GROWTH: u64 = 8;
+const GROWTH: u64 = 16;
+/// How long a dispatch should take in the first band, where some pixels' cost is not known yet: those of a ball
+/// of mirrors may be ten times that of the sky over it.
+const FIRST_TARGET: Duration = Duration::from_millis(50);
+/// A block that takes less says more of the host than of its pixels.
+const TELLING: Duration = Duration::from_millis(20);
+/// The slowest pixels so far set the pace; how much of that is left after each block, in case something else
+/// held the machine up.
+const MEMORY: f64 = 0.9;
 /// Samples of a pixel that one dispatch takes where there is enough to do beside: long lanes keep
 /// the device full.
 const LONG: u64 = 64;
@@ -44,6 +52,8 @@ pub struct Plan {
     next_pixel: u64,
     /// Samples that the next block may take.
     budget: u64,
+    /// Seconds a path of the slowest blocks, forgetting.
+    slowest: f64,
     /// Blocks of exactly this many samples, whatever time they take.
     fixed: bool,
     /// Whether bands end where somebody looks at the error.
@@ -59,6 +69,7 @@ impl Plan {
             band,
             next_pixel: 0,
             budget: FIRST_BUDGET,
+            slowest: 0.0,
             fixed: false,
             looks: false,
         }
@@ -114,9 +125,14 @@ impl Plan {
         if self.fixed {
             return;
         }
-        let rate = block.paths() as f64 / took.as_secs_f64().max(1e-6);
-        let wanted = (rate * TARGET.as_secs_f64()) as u64;
-        self.budget = wanted.clamp(1, block.paths().saturating_mul(GROWTH)).max(1);
+        let pace = took.as_secs_f64().max(1e-6) / block.paths() as f64;
+        if took >= TELLING {
+            self.slowest = pace.max(self.slowest * MEMORY);
+        }
+        let is_first = block.first_sample == self.samples.start;
+        let target = if is_first { FIRST_TARGET } else { TARGET };
+        let wanted = (target.as_secs_f64() / pace.max(self.slowest)) as u64;
+        self.budget = wanted.clamp(1, block.paths().saturating_mul(GROWTH));
     }
 
     /// The next block, or nothing when all is done.
@@ -345,5 +361,48 @@ mod tests {
             plan.learn(&block, took);
         }
         assert!(longest <= TARGET + TARGET / 10, "{longest:?}");
+    }
+
+    /// A picture whose lower half is nine times as slow as the sky, with two blocks on their way.
+    #[test]
+    fn no_block_is_long_where_pixels_differ() {
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 640,
+            y1: 480,
+        };
+        let cost = |y: u32| if y < 240 { 100 } else { 900 };
+        let took = |block: &Block| {
+            let row = u64::from(block.rect.width()) * u64::from(block.samples);
+            let rows = block.rect.y0..block.rect.y1;
+            Duration::from_nanos(rows.map(|y| row * cost(y)).sum())
+        };
+        let mut plan = Plan::new(region, 0..4096);
+        let mut started = std::collections::VecDeque::new();
+        let (mut first, mut later) = (Duration::ZERO, Vec::new());
+        while let Some(block) = plan.next_block() {
+            started.push_back(block);
+            if started.len() < 2 {
+                continue;
+            }
+            let done = started.pop_front().unwrap();
+            let time = took(&done);
+            if done.first_sample == 0 {
+                first = first.max(time);
+            } else {
+                later.push(time);
+            }
+            plan.learn(&done, time);
+        }
+        assert!(first <= Duration::from_millis(500), "{first:?}");
+        // Many fast blocks forget the slow ones: the picture comes round again before they quite have.
+        let longest = later.iter().max().unwrap();
+        assert!(*longest <= Duration::from_millis(500), "{longest:?}");
+        let mean = later.iter().sum::<Duration>() / later.len() as u32;
+        assert!(
+            mean >= TARGET / 5,
+            "dispatches are long enough to be worth it: {mean:?}"
+        );
     }
 }

@@ -54,6 +54,9 @@ pub(super) fn persist(
 fn attempt(scene: &Scene, device: &mut dyn Device, rules: Rules, hear: &mut Hear) -> Attempt {
     let started = Instant::now();
     let task = Task::one_of_many(scene);
+    if let Err(error) = render::refuse_too_large(&task) {
+        return Attempt::Bad(Status::Failed, error.to_string());
+    }
     let (mut stopped, mut late) = (false, false);
     let rendering = render::render(device, &task, &mut |rendering| {
         late = rules.timeout.is_some_and(|limit| started.elapsed() > limit);
