@@ -10,6 +10,7 @@
 //! ```text
 //! scene.toml ─parse→ Scene ─Packed::new→ flat buffers ─┬→ gpu (shaders/*.wgsl) ─┐
 //!            knobs ↗         Task ─Plan→ blocks ───────┴→ cpu (the twin) ───────┴→ Film → Picture → EXR, PNG + record
+//!                                 ↑────────────── Checkpoint ←──────────────────────┘
 //!
 //! any EXR, PNG ─RasterFile→ Pair ─┬→ metrics, limits, maps ─┬→ Comparison → text, JSON, exit code
 //!                                 └→ verdict ───────────────┘
@@ -29,8 +30,8 @@
 //! | [`pack`] | a scene as `#[repr(C)]` buffers and a strategy of override constants |
 //! | [`shader`] | joins the WGSL files, prints constants from the Rust enums and scenes as straight-line code, parses and validates |
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
-//! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
-//! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
+//! | [`render`] | choice of device, the plan of blocks, the thread that feeds a device ahead, stop rules, what happens when a device is lost |
+//! | [`film`] | sums in f64, checkpoints, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`sweep`] | a grid of renders with their references: axes, plan, ledger, table, and the way back from a folder |
 //! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
@@ -56,6 +57,10 @@
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
 //!    on how the work was split.
+//! 4. A [`render::Plan`] cuts the work into blocks of about 0.15 s. One thread owns the device and starts each
+//!    block before the one in hand is done; another adds up what comes back and asks whoever watches. A film is
+//!    plain data: a checkpoint is its sums, and [`render::go_on`] takes up any film where its plan left it, on
+//!    the same device or, when that is lost, on another.
 //!
 //! # How to add
 //!
