@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod devices;
 mod diff;
+mod doctor;
 mod figures;
 mod knobs;
 mod merge;
@@ -54,6 +55,7 @@ enum Command {
     Check(check::Command),
     Knobs(knobs::Command),
     Devices(devices::Command),
+    Doctor(doctor::Command),
     Points(points::Command),
     Rerun(rerun::Command),
     Merge(merge::Command),
@@ -92,6 +94,7 @@ fn run(line: Lampray) -> Result<ExitCode> {
         Command::Check(command) => command.run(line.output),
         Command::Knobs(command) => command.run(line.output),
         Command::Devices(command) => command.run(line.output),
+        Command::Doctor(command) => command.run(line.output),
         Command::Points(command) => command.run(line.output),
         Command::Rerun(command) => command.run(line.output),
         Command::Merge(command) => command.run(line.output),

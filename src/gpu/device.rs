@@ -2,10 +2,11 @@
 
 use super::adapter::Adapters;
 use super::cache::{Cache, Key};
+use super::disk_cache::Kept;
 use super::guard::Guard;
 use super::pieces::{Allowance, Gathered, pieces};
 use super::pipeline::Pipeline;
-use crate::device::{Device, DeviceInfo, runs};
+use crate::device::{Device, DeviceInfo, Limits, runs};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::panics::catch;
@@ -39,9 +40,10 @@ struct Loaded {
 /// A graphics device that traces.
 #[derive(Debug)]
 pub struct Gpu {
-    info: DeviceInfo,
-    guard: Guard,
+    pub(super) info: DeviceInfo,
+    pub(super) guard: Guard,
     pipelines: Cache<Arc<Pipeline>>,
+    pub(super) kept: Option<Kept>,
     results: Option<Results>,
     loaded: Option<Loaded>,
 }
@@ -56,6 +58,7 @@ impl Gpu {
         let (adapter, info) = adapters.get(index).ok_or_else(missing)?;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("lampray"),
+            required_features: Kept::features(adapter),
             required_limits: adapter.limits(),
             ..Default::default()
         };
@@ -69,9 +72,11 @@ impl Gpu {
         let (device, queue) = opened
             .map_err(|_| refused("its driver failed".into()))?
             .map_err(|error| refused(error.to_string()))?;
+        let guard = Guard::new(device, queue, &info.name);
         Ok(Self {
             info: info.clone(),
-            guard: Guard::new(device, queue, &info.name),
+            kept: Kept::open(&guard, adapter, info),
+            guard,
             pipelines: Cache::new(),
             results: None,
             loaded: None,
@@ -80,7 +85,7 @@ impl Gpu {
 
     /// The pipeline of a kernel, compiled on first use. Kernels without a scene have no arrays, and one that
     /// is baked is for a single scene.
-    fn pipeline(
+    pub(super) fn pipeline(
         &mut self,
         kernel: Kernel,
         strategy: &Strategy,
@@ -103,7 +108,9 @@ impl Gpu {
             lamps: 1,
             ..SceneArrays::default()
         };
-        let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays.unwrap_or(none), baked)?;
+        let kept = self.kept.as_ref().map(Kept::pipelines);
+        let arrays = arrays.unwrap_or(none);
+        let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays, baked, kept)?;
         let pipeline = Arc::new(pipeline);
         self.pipelines.insert(key, pipeline.clone());
         Ok(pipeline)
@@ -131,7 +138,7 @@ impl Gpu {
     }
 
     /// Runs a kernel over `groups` and returns its `count` results. `scene` is whether it traces.
-    fn dispatch<T: Pod + Zeroable>(
+    pub(super) fn dispatch<T: Pod + Zeroable>(
         &mut self,
         pipeline: &Pipeline,
         scene: bool,
@@ -377,6 +384,20 @@ impl Device for Gpu {
         let inputs = [(bytemuck::bytes_of(job), wgpu::BufferUsages::UNIFORM)];
         let groups = [job.count.div_ceil(64), 1];
         self.dispatch(&pipeline, false, &inputs, groups, job.count as usize)
+    }
+
+    fn limits(&self) -> Result<Option<Limits>> {
+        self.stated_limits().map(Some)
+    }
+
+    fn canary(
+        &mut self,
+        strategy: &Strategy,
+        job: &CanaryJob,
+        scenes: &[CanaryScene],
+        inputs: &[[u32; 4]],
+    ) -> Result<Option<Vec<[u32; 4]>>> {
+        self.answer(strategy, job, scenes, inputs).map(Some)
     }
 
     fn readback(&self) -> Duration {

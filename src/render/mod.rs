@@ -4,7 +4,7 @@ mod choose;
 mod picture;
 mod plan;
 
-pub use choose::{Chosen, VULKAN_HINT, devices, open, word};
+pub use choose::{Chosen, VULKAN_HINT, devices, open, open_unexamined, word};
 pub use picture::{picture, scene_hash};
 pub use plan::{Block, Plan};
 
