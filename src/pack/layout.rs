@@ -195,17 +195,17 @@ pub struct CanaryScene {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct CanaryJob {
+    /// A [`crate::shader::Canary`]'s number.
+    pub canary: u32,
+    pub count: u32,
+    pub corner: [u32; 2],
+    pub seed: [u32; 2],
+    pub _pad0: [u32; 2],
     pub camera: Camera,
     pub pole: Basis,
     pub scene: CanaryScene,
     pub background: Vec3,
     pub clamp: f32,
-    pub corner: [u32; 2],
-    pub seed: [u32; 2],
-    /// A [`crate::shader::Canary`]'s number.
-    pub canary: u32,
-    pub count: u32,
-    pub _pad0: [u32; 2],
 }
 
 /// What a device measured of one pixel over one run of samples.
