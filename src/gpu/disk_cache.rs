@@ -60,6 +60,7 @@ impl Drop for Kept {
     }
 }
 
+/// A cache of what was kept, or an empty one where that is not for this device.
 fn create(guard: &Guard, kept: Option<&[u8]>) -> Option<wgpu::PipelineCache> {
     let descriptor = wgpu::PipelineCacheDescriptor {
         label: Some("lampray"),
@@ -75,7 +76,10 @@ fn create(guard: &Guard, kept: Option<&[u8]>) -> Option<wgpu::PipelineCache> {
             device.create_pipeline_cache(&descriptor)
         }
     });
-    made.ok()
+    match (made, kept) {
+        (Err(_), Some(_)) => create(guard, None),
+        (made, _) => made.ok(),
+    }
 }
 
 /// What the driver has; nothing where it says nothing, or is lost.
