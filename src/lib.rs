@@ -23,13 +23,14 @@
 //!
 //! | room | what lives there |
 //! |---|---|
-//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
+//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`, `canary`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
 //! | [`knobs`] | the one table of knobs, the presets, the typed settings |
 //! | [`scene`] | the scene's types, the TOML parser with places, the checks |
 //! | [`bvh`] | bodies' bounds as a tree that is walked without a stack |
 //! | [`pack`] | a scene as `#[repr(C)]` buffers and a strategy of override constants |
 //! | [`shader`] | joins the WGSL files, prints constants from the Rust enums and scenes as straight-line code, parses and validates |
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
+//! | [`doctor`] | known-answer checks of a device, before it is trusted with a picture |
 //! | [`render`] | choice of device, the plan of blocks, the thread that feeds a device ahead, stop rules, what happens when a device is lost |
 //! | [`film`] | sums in f64, checkpoints, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
@@ -44,6 +45,7 @@
 //! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
+//! | [`cache`] | files that may vanish: verdicts of the doctor, compiled pipelines |
 //! | [`cli`] | one file a command, each a thin face over the library |
 //!
 //! # The life of a sample
@@ -78,31 +80,59 @@
 //!   imported; its twin behind [`cpu::scene::Traversal`]. `tests/bvh` holds that pictures stay the same bits.
 //! - **A kernel**: a file in `shaders/`, a name in [`shader::Kernel`] and in `shader/library.rs`.
 
-#![forbid(unsafe_code)]
+// One call of wgpu is unsafe, in `gpu`, which forbids it in all of its files but one. No other room has any.
+#![deny(unsafe_code)]
 
+#[forbid(unsafe_code)]
 pub mod analysis;
+#[forbid(unsafe_code)]
 pub mod bench;
+#[forbid(unsafe_code)]
 pub mod bvh;
+#[forbid(unsafe_code)]
+pub mod cache;
+#[forbid(unsafe_code)]
 pub mod calibrate;
+#[forbid(unsafe_code)]
 pub mod cli;
+#[forbid(unsafe_code)]
 pub mod compare;
+#[forbid(unsafe_code)]
 pub mod cpu;
+#[forbid(unsafe_code)]
 pub mod device;
+#[forbid(unsafe_code)]
+pub mod doctor;
+#[forbid(unsafe_code)]
 pub mod error;
+#[forbid(unsafe_code)]
 pub mod figures;
+#[forbid(unsafe_code)]
 pub mod film;
 pub mod gpu;
+#[forbid(unsafe_code)]
 pub mod knobs;
+#[forbid(unsafe_code)]
 pub mod pack;
+#[forbid(unsafe_code)]
 mod panics;
+#[forbid(unsafe_code)]
 pub mod place;
+#[forbid(unsafe_code)]
 pub mod points;
+#[forbid(unsafe_code)]
 pub mod render;
+#[forbid(unsafe_code)]
 pub mod report;
+#[forbid(unsafe_code)]
 pub mod reproduce;
+#[forbid(unsafe_code)]
 pub mod scene;
+#[forbid(unsafe_code)]
 pub mod shader;
+#[forbid(unsafe_code)]
 pub mod sweep;
+#[forbid(unsafe_code)]
 pub mod theory;
 
 pub use error::{Error, Result};
