@@ -18,8 +18,8 @@ const BODY: u64 = 1024;
 /// Results of a block are in the device's memory and in the host's, of several blocks at a time.
 const TALLY_COPIES: u64 = 10;
 
-/// The most memory that a render is expected to take, bytes.
-fn estimate(task: &Task) -> u64 {
+/// The most memory that rendering a task and writing its picture is expected to take, bytes.
+pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
     let of_pixel = PIXEL + if task.features { FEATURES } else { 0 };
@@ -36,7 +36,7 @@ pub fn refuse_too_large(task: &Task) -> Result<()> {
     let Some((limit, whose)) = limit() else {
         return Ok(());
     };
-    let wanted = estimate(task);
+    let wanted = memory_estimate(task);
     if wanted <= limit {
         return Ok(());
     }
@@ -141,12 +141,12 @@ mod tests {
             region,
             ..Task::new(&scene)
         };
-        let gib = estimate(&task) as f64 / (1u64 << 30) as f64;
+        let gib = memory_estimate(&task) as f64 / (1u64 << 30) as f64;
         assert!((23.0..25.0).contains(&gib), "{gib}");
         let layers = Task {
             features: true,
             ..task
         };
-        assert!(estimate(&layers) > (39 << 30));
+        assert!(memory_estimate(&layers) > (39 << 30));
     }
 }

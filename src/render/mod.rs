@@ -11,7 +11,7 @@ mod rendering;
 
 pub use choose::{Chosen, VULKAN_HINT, devices, open, open_unexamined, word};
 pub use endure::{Spares, endure};
-pub use memory::refuse_too_large;
+pub use memory::{memory_estimate, refuse_too_large};
 pub use picture::{picture, record, scene_hash};
 pub use plan::Plan;
 pub use rendering::Rendering;
