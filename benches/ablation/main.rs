@@ -50,10 +50,8 @@ fn texts(scene: &Packed) -> (Joined, String) {
 fn entries(device: &Device, scene: &Packed, names: &[String]) -> Vec<Entry> {
     let (shipping, general) = texts(scene);
     let entry = |name: &str, text: String, technique: Option<&Technique>| {
-        let joined = Joined {
-            text,
-            ..shipping.clone()
-        };
+        let mut joined = shipping.clone();
+        joined.text = text;
         Entry {
             name: name.into(),
             instead: technique.map_or("", |technique| technique.instead).into(),
