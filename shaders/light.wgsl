@@ -137,7 +137,7 @@ fn sample_cone(lamp: Lamp, cone: Cone, u: vec2<f32>) -> LightSample {
     let sine = root(sine_squared);
     let cosine = 1.0 - fallen;
     let basis = basis_around(cone.axis);
-    let direction = unit_again(from_basis(basis, vec3<f32>(sine * unit_circle(u.y), cosine)));
+    let direction = unit_vector_again(from_basis(basis, vec3<f32>(sine * unit_circle(u.y), cosine)));
     let half_chord = root(lamp.radius * lamp.radius - cone.distance * cone.distance * sine_squared);
     let distance = cone.distance * cosine - half_chord;
     let inverse_density = cone_solid_angle(cone);

@@ -19,12 +19,12 @@ fn largest(v: vec3<f32>) -> f32 {
 }
 
 // A vector made one of unit length. The built-in normalize divides thrice on some drivers.
-fn unit(v: vec3<f32>) -> vec3<f32> {
+fn unit_vector(v: vec3<f32>) -> vec3<f32> {
     return v * inverseSqrt(dot(v, v));
 }
 
 // The same for one whose length is off by rounding only: one step of Newton's method, without a root.
-fn unit_again(v: vec3<f32>) -> vec3<f32> {
+fn unit_vector_again(v: vec3<f32>) -> vec3<f32> {
     return v * (1.5 - 0.5 * dot(v, v));
 }
 

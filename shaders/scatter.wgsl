@@ -33,7 +33,7 @@ struct Scattered {
 }
 
 fn mirror_direction(normal: vec3<f32>, incoming: vec3<f32>) -> vec3<f32> {
-    return unit_again(incoming - 2.0 * dot(normal, incoming) * normal);
+    return unit_vector_again(incoming - 2.0 * dot(normal, incoming) * normal);
 }
 
 // Lambert: by the cosine, as the direction to a point of the unit sphere that stands on the
@@ -70,7 +70,7 @@ fn sample_directional(material: Material, normal: vec3<f32>, incoming: vec3<f32>
     let theta = lesser(drawn, 0.5 * PI);
     let polar = sincos_turn(theta / (2.0 * PI));
     let basis = basis_around(mirror_direction(normal, incoming));
-    let direction = unit_again(from_basis(basis, vec3<f32>(polar.x * unit_circle(u.y), polar.y)));
+    let direction = unit_vector_again(from_basis(basis, vec3<f32>(polar.x * unit_circle(u.y), polar.y)));
     let chord = 2.0 * sincos_turn(theta / (4.0 * PI)).x;
     let on_ring = SCATTER_BOUND == SCATTER_BOUND_CLAMP && drawn >= 0.5 * PI;
     return Scattered(

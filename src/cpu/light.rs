@@ -131,7 +131,7 @@ fn sample_cone(strategy: &Strategy, lamp: &Lamp, cone: Cone, u: Vec2) -> LightSa
     let sine = root(sine_squared);
     let cosine = 1.0 - fallen;
     let basis = basis_around(cone.axis);
-    let direction = unit_again(from_basis(basis, (sine * unit_circle(u.y)).extend(cosine)));
+    let direction = unit_vector_again(from_basis(basis, (sine * unit_circle(u.y)).extend(cosine)));
     let half_chord = root(lamp.radius * lamp.radius - cone.distance * cone.distance * sine_squared);
     let distance = cone.distance * cosine - half_chord;
     let inverse_density = cone_solid_angle(cone);

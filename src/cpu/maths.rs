@@ -16,12 +16,12 @@ pub fn largest(v: Vec3) -> f32 {
 }
 
 /// A vector made one of unit length.
-pub fn unit(v: Vec3) -> Vec3 {
+pub fn unit_vector(v: Vec3) -> Vec3 {
     v * (1.0 / v.dot(v).sqrt())
 }
 
 /// The same for one whose length is off by rounding only: one step of Newton's method.
-pub fn unit_again(v: Vec3) -> Vec3 {
+pub fn unit_vector_again(v: Vec3) -> Vec3 {
     v * (1.5 - 0.5 * v.dot(v))
 }
 

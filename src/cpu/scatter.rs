@@ -20,7 +20,7 @@ pub struct Scattered {
 }
 
 pub fn mirror_direction(normal: Vec3, incoming: Vec3) -> Vec3 {
-    unit_again(incoming - 2.0 * normal.dot(incoming) * normal)
+    unit_vector_again(incoming - 2.0 * normal.dot(incoming) * normal)
 }
 
 #[inline(always)]
@@ -72,7 +72,7 @@ fn sample_directional(
     let theta = lesser(drawn, FRAC_PI_2);
     let polar = sincos_turn(theta / TAU);
     let basis = basis_around(mirror_direction(normal, incoming));
-    let direction = unit_again(from_basis(
+    let direction = unit_vector_again(from_basis(
         basis,
         (polar.x * unit_circle(u.y)).extend(polar.y),
     ));
