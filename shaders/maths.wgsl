@@ -18,7 +18,7 @@ fn largest(v: vec3<f32>) -> f32 {
     return greater(v.x, greater(v.y, v.z));
 }
 
-// A vector made one of unit length. The built-in normalize divides thrice on some drivers.
+// A vector made one of unit length, with one root and one division.
 fn unit_vector(v: vec3<f32>) -> vec3<f32> {
     return v * inverseSqrt(dot(v, v));
 }
