@@ -7,22 +7,16 @@
 //! then backwards, so that a clock that drifts is everyone's; the table has medians. The same pixels
 //! and samples are traced by all, and they must agree bit for bit.
 
+#[path = "support/processor.rs"]
+mod processor;
 #[path = "support/spheres.rs"]
 mod spheres;
 
 use lampray::device::Device;
 use lampray::pack::{Packed, Rect, Tally};
 use lampray::scene::{Assignment, Scene};
+use processor::processor_seconds;
 use std::time::Instant;
-
-/// Seconds of processor time that this process has taken, where the system tells (Linux: in hundredths);
-/// work of others on the same machine does not count then.
-fn processor_seconds() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
-    let fields: Vec<_> = text.rsplit_once(')')?.1.split_whitespace().collect();
-    let ticks = |place: usize| fields.get(place)?.parse::<f64>().ok();
-    Some(0.01 * (ticks(11)? + ticks(12)?))
-}
 
 const SIDE: u32 = 96;
 /// A trace is repeated with more samples until it takes this long.

@@ -11,26 +11,31 @@
 // #import box
 // #import scene
 
-fn to_sphere(center: vec3<f32>, radius: f32, ray: Ray, body: u32) -> f32 {
-    return first_distance(intersect_sphere(center, radius, ray), ray, body);
+fn to_sphere(center: vec3<f32>, radius: f32, ray: Ray, body: u32) -> Meeting {
+    return first_meeting(intersect_sphere(center, radius, ray), ray, body);
 }
 
 // `inverse` is that of the ray's direction.
-fn to_box(center: vec3<f32>, half_size: vec3<f32>, inverse: vec3<f32>, ray: Ray, body: u32) -> f32 {
-    return first_distance(intersect_box(half_size, ray.origin - center, inverse), ray, body);
+fn to_box(center: vec3<f32>, half_size: vec3<f32>, inverse: vec3<f32>, ray: Ray, body: u32) -> Meeting {
+    return first_meeting(intersect_box(half_size, ray.origin - center, inverse), ray, body);
 }
 
-fn to_rotated_box(shape: Box, ray: Ray) -> f32 {
-    return first_distance(rotated_box_crossing(shape, ray), ray, shape.body);
+fn to_rotated_box(shape: Box, ray: Ray) -> Meeting {
+    return first_meeting(rotated_box_crossing(shape, ray), ray, shape.body);
 }
 
-fn nearer(best: Hit, distance: f32, body: u32) -> Hit {
-    let closer = distance > 0.0 && distance < best.distance;
-    return Hit(select(best.distance, distance, closer), select(best.body, body, closer));
+fn nearer(best: Hit, meeting: Meeting, body: u32) -> Hit {
+    let closer = meeting.met & (meeting.distance < best.distance);
+    return Hit(select(best.distance, meeting.distance, closer), select(best.body, body, closer));
 }
 
-fn blocks(distance: f32, reach: f32) -> bool {
-    return (distance > 0.0) & (distance < reach);
+// What `first_distance` makes of the nearest meeting.
+fn found(best: Hit) -> Hit {
+    return Hit(greater(best.distance, 1e-30), best.body);
+}
+
+fn blocks(meeting: Meeting, reach: f32) -> bool {
+    return meeting.met & (meeting.distance < reach);
 }
 
 // How many iterations this lane may take: there is nothing to count.

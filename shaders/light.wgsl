@@ -48,11 +48,12 @@ struct Cone {
 fn lamp_cone(lamp: Lamp, origin: vec3<f32>) -> Cone {
     let to_center = lamp.center - origin;
     let distance = length(to_center);
-    let ratio = lamp.radius / greater(distance, 1e-30);
+    let inverse = 1.0 / greater(distance, 1e-30);
+    let ratio = lamp.radius * inverse;
     let sine_squared = lesser(ratio * ratio, 1.0);
     let height = sine_squared / (1.0 + root(1.0 - sine_squared));
     return Cone(
-        to_center / greater(distance, 1e-30),
+        to_center * inverse,
         distance,
         sine_squared,
         height,
@@ -136,7 +137,7 @@ fn sample_cone(lamp: Lamp, cone: Cone, u: vec2<f32>) -> LightSample {
     let sine = root(sine_squared);
     let cosine = 1.0 - fallen;
     let basis = basis_around(cone.axis);
-    let direction = normalize(from_basis(basis, vec3<f32>(sine * unit_circle(u.y), cosine)));
+    let direction = unit_vector_again(from_basis(basis, vec3<f32>(sine * unit_circle(u.y), cosine)));
     let half_chord = root(lamp.radius * lamp.radius - cone.distance * cone.distance * sine_squared);
     let distance = cone.distance * cosine - half_chord;
     let inverse_density = cone_solid_angle(cone);

@@ -18,6 +18,16 @@ fn largest(v: vec3<f32>) -> f32 {
     return greater(v.x, greater(v.y, v.z));
 }
 
+// A vector made one of unit length, with one root and one division.
+fn unit_vector(v: vec3<f32>) -> vec3<f32> {
+    return v * inverseSqrt(dot(v, v));
+}
+
+// The same for one whose length is off by rounding only: one step of Newton's method, without a root.
+fn unit_vector_again(v: vec3<f32>) -> vec3<f32> {
+    return v * (1.5 - 0.5 * dot(v, v));
+}
+
 // Square root of a number that rounding may have pushed below zero.
 fn root(x: f32) -> f32 {
     return sqrt(greater(x, 0.0));

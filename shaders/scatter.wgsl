@@ -33,7 +33,7 @@ struct Scattered {
 }
 
 fn mirror_direction(normal: vec3<f32>, incoming: vec3<f32>) -> vec3<f32> {
-    return normalize(incoming - 2.0 * dot(normal, incoming) * normal);
+    return unit_vector_again(incoming - 2.0 * dot(normal, incoming) * normal);
 }
 
 // Lambert: by the cosine, as the direction to a point of the unit sphere that stands on the
@@ -70,7 +70,7 @@ fn sample_directional(material: Material, normal: vec3<f32>, incoming: vec3<f32>
     let theta = lesser(drawn, 0.5 * PI);
     let polar = sincos_turn(theta / (2.0 * PI));
     let basis = basis_around(mirror_direction(normal, incoming));
-    let direction = normalize(from_basis(basis, vec3<f32>(polar.x * unit_circle(u.y), polar.y)));
+    let direction = unit_vector_again(from_basis(basis, vec3<f32>(polar.x * unit_circle(u.y), polar.y)));
     let chord = 2.0 * sincos_turn(theta / (4.0 * PI)).x;
     let on_ring = SCATTER_BOUND == SCATTER_BOUND_CLAMP && drawn >= 0.5 * PI;
     return Scattered(
@@ -108,11 +108,13 @@ fn evaluate_lambert(material: Material, normal: vec3<f32>, outgoing: vec3<f32>) 
     return material.albedo * (greater(dot(normal, outgoing), 0.0) / PI);
 }
 
+// `evaluate_scatter` where `scatter_density` of the two directions is known.
+fn evaluate_by_density(material: Material, normal: vec3<f32>, outgoing: vec3<f32>, density: f32) -> vec3<f32> {
+    let lobe = material.albedo * select(0.0, density, dot(normal, outgoing) > 0.0);
+    return select(lobe, evaluate_lambert(material, normal, outgoing), material.scatter == SURFACE_DIFFUSE);
+}
+
 // Scattering function times cosine; the part with a density only. The lobe's is albedo times its density.
 fn evaluate_scatter(material: Material, normal: vec3<f32>, incoming: vec3<f32>, outgoing: vec3<f32>) -> vec3<f32> {
-    if material.scatter == SURFACE_DIFFUSE {
-        return evaluate_lambert(material, normal, outgoing);
-    }
-    let above = dot(normal, outgoing) > 0.0;
-    return material.albedo * select(0.0, scatter_density(material, normal, incoming, outgoing), above);
+    return evaluate_by_density(material, normal, outgoing, scatter_density(material, normal, incoming, outgoing));
 }

@@ -36,5 +36,5 @@ fn intersect_sphere(center: vec3<f32>, radius: f32, ray: Ray) -> Crossing {
 
 // Outward unit normal at the point of the sphere nearest to `point`.
 fn sphere_normal(center: vec3<f32>, point: vec3<f32>) -> vec3<f32> {
-    return normalize(point - center);
+    return unit_vector(point - center);
 }

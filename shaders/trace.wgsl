@@ -44,8 +44,11 @@ struct Tally {
     non_finite: u32,
 }
 
-@group(1) @binding(0) var<uniform> job: Job;
+@group(1) @binding(0) var<uniform> dispatched: Job;
 @group(1) @binding(1) var<storage, read_write> tallies: array<Tally>;
+
+// What was dispatched, read once: in Mesa 22 every lane fetches what it reads of a buffer by itself.
+var<private> job: Job;
 
 // A path on its way.
 struct Path {
@@ -114,13 +117,13 @@ fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: ve
     let own = surface.body == lamp.body;
     let inside = select(distance(lamp.center, origin) < lamp.radius, surface.inside, own);
     let light = sample_light(lamp, job.pole, origin, inside, u);
+    let density = scatter_density(material, surface.normal, incoming, light.direction);
     var reflected = evaluate_lambert(material, surface.normal, light.direction);
     if LIGHT_DIRECT == LIGHT_DIRECT_BSDF {
-        reflected = evaluate_scatter(material, surface.normal, incoming, light.direction);
+        reflected = evaluate_by_density(material, surface.normal, light.direction, density);
     }
     var weight = light.weight;
     if LIGHT_STRATEGY == LIGHT_STRATEGY_MIS {
-        let density = scatter_density(material, surface.normal, incoming, light.direction);
         weight *= power_heuristic(light.inverse_density * density);
     }
     let value = reflected * weight * lamp.emission;
@@ -252,6 +255,7 @@ fn sample_index(count: u32) -> vec2<u32> {
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) lane: vec3<u32>) {
+    job = dispatched;
     if lane.x >= job.size.x || lane.y >= job.size.y {
         return;
     }

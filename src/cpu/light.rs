@@ -33,10 +33,11 @@ pub struct Cone {
 pub fn lamp_cone(lamp: &Lamp, origin: Vec3) -> Cone {
     let to_center = Vec3::from(lamp.center) - origin;
     let distance = to_center.length();
-    let ratio = lamp.radius / greater(distance, 1e-30);
+    let inverse = 1.0 / greater(distance, 1e-30);
+    let ratio = lamp.radius * inverse;
     let sine_squared = lesser(ratio * ratio, 1.0);
     Cone {
-        axis: to_center / greater(distance, 1e-30),
+        axis: to_center * inverse,
         distance,
         sine_squared,
         height: sine_squared / (1.0 + root(1.0 - sine_squared)),
@@ -130,7 +131,7 @@ fn sample_cone(strategy: &Strategy, lamp: &Lamp, cone: Cone, u: Vec2) -> LightSa
     let sine = root(sine_squared);
     let cosine = 1.0 - fallen;
     let basis = basis_around(cone.axis);
-    let direction = from_basis(basis, (sine * unit_circle(u.y)).extend(cosine)).normalize();
+    let direction = unit_vector_again(from_basis(basis, (sine * unit_circle(u.y)).extend(cosine)));
     let half_chord = root(lamp.radius * lamp.radius - cone.distance * cone.distance * sine_squared);
     let distance = cone.distance * cosine - half_chord;
     let inverse_density = cone_solid_angle(cone);

@@ -15,6 +15,16 @@ pub fn largest(v: Vec3) -> f32 {
     greater(v.x, greater(v.y, v.z))
 }
 
+/// A vector made one of unit length.
+pub fn unit_vector(v: Vec3) -> Vec3 {
+    v * (1.0 / v.dot(v).sqrt())
+}
+
+/// The same for one whose length is off by rounding only: one step of Newton's method.
+pub fn unit_vector_again(v: Vec3) -> Vec3 {
+    v * (1.5 - 0.5 * v.dot(v))
+}
+
 pub fn root(x: f32) -> f32 {
     greater(x, 0.0).sqrt()
 }

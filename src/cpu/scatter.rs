@@ -20,7 +20,7 @@ pub struct Scattered {
 }
 
 pub fn mirror_direction(normal: Vec3, incoming: Vec3) -> Vec3 {
-    (incoming - 2.0 * normal.dot(incoming) * normal).normalize()
+    unit_vector_again(incoming - 2.0 * normal.dot(incoming) * normal)
 }
 
 #[inline(always)]
@@ -72,7 +72,10 @@ fn sample_directional(
     let theta = lesser(drawn, FRAC_PI_2);
     let polar = sincos_turn(theta / TAU);
     let basis = basis_around(mirror_direction(normal, incoming));
-    let direction = from_basis(basis, (polar.x * unit_circle(u.y)).extend(polar.y)).normalize();
+    let direction = unit_vector_again(from_basis(
+        basis,
+        (polar.x * unit_circle(u.y)).extend(polar.y),
+    ));
     let chord = 2.0 * sincos_turn(theta / (2.0 * TAU)).x;
     let on_ring = strategy.scatter_bound == ScatterBound::Clamp && drawn >= FRAC_PI_2;
     let above = direction.dot(normal) > 0.0;
@@ -136,6 +139,23 @@ pub fn evaluate_lambert(material: &Material, normal: Vec3, outgoing: Vec3) -> Ve
     Vec3::from(material.albedo) * (greater(normal.dot(outgoing), 0.0) / PI)
 }
 
+/// [`evaluate_scatter`] where [`scatter_density`] of the two directions is known.
+#[inline(always)]
+pub fn evaluate_by_density(
+    material: &Material,
+    normal: Vec3,
+    outgoing: Vec3,
+    density: f32,
+) -> Vec3 {
+    if material.scatter == DIFFUSE {
+        return evaluate_lambert(material, normal, outgoing);
+    }
+    if normal.dot(outgoing) <= 0.0 {
+        return Vec3::ZERO;
+    }
+    Vec3::from(material.albedo) * density
+}
+
 /// Scattering function times cosine; the part with a density only.
 #[inline(always)]
 pub fn evaluate_scatter(
@@ -145,11 +165,6 @@ pub fn evaluate_scatter(
     incoming: Vec3,
     outgoing: Vec3,
 ) -> Vec3 {
-    if material.scatter == DIFFUSE {
-        return evaluate_lambert(material, normal, outgoing);
-    }
-    if normal.dot(outgoing) <= 0.0 {
-        return Vec3::ZERO;
-    }
-    Vec3::from(material.albedo) * scatter_density(strategy, material, normal, incoming, outgoing)
+    let density = scatter_density(strategy, material, normal, incoming, outgoing);
+    evaluate_by_density(material, normal, outgoing, density)
 }

@@ -1,6 +1,6 @@
 //! Twin of `shaders/sphere.wgsl`: rays against spheres.
 
-use super::maths::root;
+use super::maths::{root, unit_vector};
 use super::ray::{Crossing, Ray};
 use glam::Vec3;
 
@@ -24,5 +24,5 @@ pub fn intersect_sphere(center: Vec3, radius: f32, ray: &Ray) -> Crossing {
 
 /// Outward unit normal at the point of the sphere nearest to `point`.
 pub fn sphere_normal(center: Vec3, point: Vec3) -> Vec3 {
-    (point - center).normalize()
+    unit_vector(point - center)
 }

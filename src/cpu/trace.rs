@@ -139,25 +139,21 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
         let u = Vec4::from(random_unit(path.key, path.vertex + 1, index as u32 + 1));
         let light = sample_light(strategy, lamp, self.pole, origin, inside, u);
+        let density = scatter_density(
+            strategy,
+            material,
+            surface.normal,
+            incoming,
+            light.direction,
+        );
         let reflected = match strategy.light_direct {
             LightDirect::Lambert => evaluate_lambert(material, surface.normal, light.direction),
-            LightDirect::Bsdf => evaluate_scatter(
-                strategy,
-                material,
-                surface.normal,
-                incoming,
-                light.direction,
-            ),
+            LightDirect::Bsdf => {
+                evaluate_by_density(material, surface.normal, light.direction, density)
+            }
         };
         let mut weight = light.weight;
         if strategy.light_strategy == LightStrategy::Mis {
-            let density = scatter_density(
-                strategy,
-                material,
-                surface.normal,
-                incoming,
-                light.direction,
-            );
             weight *= power_heuristic(light.inverse_density * density);
         }
         let value = reflected * weight * Vec3::from(lamp.emission);

@@ -91,7 +91,7 @@ fn nearest_hit(scene: &Packed) -> String {
     let line = |(body, distance)| format!("    best = nearer(best, {distance}, {body}u);\n");
     let lines: String = distances(scene).into_iter().map(line).collect();
     format!(
-        "fn nearest_hit(ray: Ray) -> Hit {{\n{INVERSE}    var best = Hit(3e38, 0u);\n{lines}    return best;\n}}\n"
+        "fn nearest_hit(ray: Ray) -> Hit {{\n{INVERSE}    var best = Hit(3e38, 0u);\n{lines}    return found(best);\n}}\n"
     )
 }
 
