@@ -150,7 +150,8 @@ pub const IN_FLIGHT: usize = 2;
 pub trait Device: Send {
     fn info(&self) -> &DeviceInfo;
 
-    /// Makes a scene the one that is traced, with everything compiled that tracing it needs.
+    /// Makes a scene the one that is traced, with everything compiled that tracing it needs. Blocks of another that
+    /// were started and not finished are forgotten.
     ///
     /// # Errors
     /// [`Error::Device`] where the scene does not fit, [`Error::DeviceLost`], [`Error::Internal`].

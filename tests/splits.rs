@@ -5,7 +5,7 @@ mod support;
 
 use lampray::cpu::Cpu;
 use lampray::device::{Device, run_ranges};
-use lampray::film::Film;
+use lampray::film::{Film, Stop};
 use lampray::pack::{Packed, RUN_LENGTH, Rect, Tally};
 use lampray::render::{Plan, Rendering, Task, go_on_by, render, whole};
 use lampray::scene::{Assignment, Scene};
@@ -204,6 +204,27 @@ fn trace(
 }
 
 /// Runs of a range are those of any longer range that holds them.
+/// A render that was stopped leaves blocks on their way: they are none of the next one's.
+fn what_was_stopped_does_not_matter(device: &mut dyn Device) {
+    let scene = room(&[]);
+    let task = task(&scene);
+    let whole = take(device, &task);
+    for blocks in [1, 3] {
+        let mut seen = 0;
+        let mut watch = |_: &Rendering| {
+            seen += 1;
+            if seen > blocks {
+                ControlFlow::Break(Stop::Signal)
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let stopped = render(device, &task, &mut watch).unwrap();
+        assert!(!stopped.complete(), "there was more to do");
+        assert!(take(device, &task) == whole, "after {blocks} blocks");
+    }
+}
+
 fn ranges_do_not_matter(device: &mut dyn Device) {
     let scene = room(&[]);
     let region = rect(2, 3, 19, 14);
@@ -330,6 +351,7 @@ material = "white"
 fn all(device: &mut dyn Device) {
     budgets_do_not_matter(device);
     crops_do_not_matter(device);
+    what_was_stopped_does_not_matter(device);
     ranges_do_not_matter(device);
     samples_do_not_matter_to_each_other(device);
     other_samples_differ(device);

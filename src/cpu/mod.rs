@@ -131,6 +131,7 @@ impl Device for Cpu {
             None => Bodies::Four(four::Bodies::new(scene)),
         };
         self.scene = Some((scene.clone(), bodies));
+        self.started.clear();
         Ok(())
     }
 
