@@ -3,6 +3,7 @@
 use super::{Picture, Record, read_exr, read_record};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
+use crate::knobs::short;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -109,13 +110,16 @@ fn compare_knobs(first: &Part, other: &Part) -> Result<()> {
 
 fn differ<T>(first: &Part, other: &Part, what: &str, one: &str, another: &str) -> Result<T> {
     let first = first.path.display();
+    let [what, one, another] = [what, one, another].map(short);
     other.fail(format!(
         "{what} is {another}, but {one} in {first}: not the same render"
     ))
 }
 
 fn describe(device: &DeviceInfo) -> String {
-    format!("{} ({} {})", device.name, device.backend, device.driver)
+    let [name, backend, driver] =
+        [&device.name, &device.backend, &device.driver].map(|word| short(word));
+    format!("{name} ({backend} {driver})")
 }
 
 /// Refuses two pictures that share a sample.
