@@ -116,7 +116,8 @@ pub fn render_plan(
     let setup = started.elapsed();
     let mut film = Film::new(task.region);
     let mut tracing = Duration::ZERO;
-    let total = task.region.area() as u64 * (task.samples.end - task.samples.start);
+    // All samples there can be of two pixels are more than u64 counts.
+    let total = (task.region.area() as u64).saturating_mul(task.samples.end - task.samples.start);
     let mut paths = 0;
     let mut complete = true;
     while let Some(block) = plan.next_block() {
