@@ -41,8 +41,11 @@ impl DeviceInfo {
     }
 
     /// Whether two devices give the same pixels for the same samples: same kind, name, driver and
-    /// backend, in whichever slot.
+    /// backend, in whichever slot. The CPU twin's name counts its threads, which change no bit.
     pub fn is_like(&self, other: &Self) -> bool {
+        if self.kind == DeviceKind::Cpu {
+            return other.kind == DeviceKind::Cpu && other.driver == self.driver;
+        }
         let pci = other.pci.clone();
         Self {
             pci,
@@ -97,8 +100,37 @@ impl std::str::FromStr for DeviceRequest {
     }
 }
 
+/// A part of the work that a device does in one go: samples of the pixels of a rectangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    pub rect: Rect,
+    pub first_sample: u64,
+    pub samples: u32,
+}
+
+impl Block {
+    /// Number of paths.
+    pub fn paths(&self) -> u64 {
+        self.rect.area() as u64 * u64::from(self.samples)
+    }
+}
+
+/// What a device made of a block.
+#[derive(Clone, Debug)]
+pub struct Traced {
+    /// Run by run, and in each run row by row; runs end where the sample index is a multiple of
+    /// [`crate::pack::RUN_LENGTH`].
+    pub tallies: Vec<Tally>,
+    /// How long the device was at it, waiting for its turn left out.
+    pub took: Duration,
+}
+
+/// Blocks that a device is given before the first of them is asked for: while one is traced the next waits
+/// in the device's own queue, so that it is never idle.
+pub const IN_FLIGHT: usize = 2;
+
 /// Something that traces. A call may take as long as its block says; none of them writes files.
-pub trait Device {
+pub trait Device: Send {
     fn info(&self) -> &DeviceInfo;
 
     /// Makes a scene the one that is traced, with everything compiled that tracing it needs.
@@ -107,25 +139,42 @@ pub trait Device {
     /// [`Error::Device`] where the scene does not fit, [`Error::DeviceLost`], [`Error::Internal`].
     fn load(&mut self, scene: &Packed) -> Result<()>;
 
-    /// Traces `samples` samples from `first_sample` on of each pixel of `rect`.
-    ///
-    /// The tallies come run by run, and in each run row by row; runs end where the sample index is
-    /// a multiple of [`crate::pack::RUN_LENGTH`].
+    /// Begins to trace a block of the loaded scene, and does not wait for it.
     ///
     /// # Errors
-    /// [`Error::DeviceLost`] or [`Error::Internal`]; nothing of the block is returned then.
-    fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>>;
+    /// [`Error::DeviceLost`] or [`Error::Internal`]. After an error nothing is in flight any more.
+    fn start(&mut self, block: Block) -> Result<()>;
+
+    /// Waits for the oldest block that was started and not yet finished.
+    ///
+    /// # Errors
+    /// As [`Device::start`]; nothing of the block is returned then.
+    fn finish(&mut self) -> Result<Traced>;
+
+    /// Traces `samples` samples from `first_sample` on of each pixel of `rect`, and waits for them; only where
+    /// no block is in flight. The tallies are in the order of [`Traced`].
+    ///
+    /// # Errors
+    /// As [`Device::start`].
+    fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
+        self.start(Block {
+            rect,
+            first_sample,
+            samples,
+        })?;
+        self.finish().map(|traced| traced.tallies)
+    }
 
     /// What the rays through the centres of the pixels of `rect` meet first, row by row.
     ///
     /// # Errors
-    /// As [`Device::trace`].
+    /// As [`Device::start`].
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>>;
 
     /// Draws by the light or the scatter sampler.
     ///
     /// # Errors
-    /// As [`Device::trace`].
+    /// As [`Device::start`].
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>>;
 
     /// Time spent so far on copying results out of the device's memory: none where there is no copy.
@@ -151,4 +200,36 @@ pub fn run_ranges(first_sample: u64, samples: u32) -> impl Iterator<Item = (u64,
         let stop = ((index + 1) * run).min(end);
         (start, (stop - start) as u32)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_and_slots_change_no_pixel() {
+        let twin = crate::cpu::info();
+        let more_threads = DeviceInfo {
+            name: "built-in CPU renderer, 99 threads".into(),
+            ..twin.clone()
+        };
+        let older = DeviceInfo {
+            driver: "lampray 0.0.1".into(),
+            ..twin.clone()
+        };
+        assert!(twin.is_like(&more_threads) && !twin.is_like(&older));
+        let gpu = DeviceInfo {
+            kind: DeviceKind::Hardware,
+            ..twin.clone()
+        };
+        let elsewhere = DeviceInfo {
+            pci: "0000:65:00.0".into(),
+            ..gpu.clone()
+        };
+        let another = DeviceInfo {
+            name: "another".into(),
+            ..gpu.clone()
+        };
+        assert!(gpu.is_like(&elsewhere) && !gpu.is_like(&another) && !gpu.is_like(&twin));
+    }
 }

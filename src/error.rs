@@ -23,11 +23,14 @@ pub enum Error {
     /// An input that is there but is not what it should be (exit 65).
     #[error("{}: {reason}", path.display())]
     Data { path: PathBuf, reason: String },
+    /// A render that this machine has too little memory for (exit 65).
+    #[error("{0}")]
+    TooLarge(String),
     /// No device of the kind that was asked for (exit 69).
     #[error("{0}")]
     Device(String),
     /// The device was lost or did not answer in time; the same call may succeed later (exit 75).
-    #[error("{0}")]
+    #[error("{0}; the same command may succeed later, or choose another with --device")]
     DeviceLost(String),
     /// An output that cannot be created; said before anything is rendered (exit 73).
     #[error("cannot create {}: {source}", path.display())]

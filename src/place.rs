@@ -90,13 +90,34 @@ impl Place {
     /// # Errors
     /// [`Error::Write`], and a file that was there before is as it was then; [`Error::Stream`] for what is none.
     pub fn write(self, fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>) -> Result<()> {
+        self.fill(None, fill)
+    }
+
+    /// As [`Place::write`]; a file that was there before is kept under another name. There is no moment at
+    /// which neither is there under one of the two.
+    ///
+    /// # Errors
+    /// As [`Place::write`].
+    pub fn write_keeping(
+        self,
+        old: &Path,
+        fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
+    ) -> Result<()> {
+        self.fill(Some(old), fill)
+    }
+
+    fn fill(
+        self,
+        keep: Option<&Path>,
+        fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
+    ) -> Result<()> {
         let Self {
             path,
             destination,
             temporary,
         } = self;
         match temporary {
-            Some(temporary) => write_file(temporary, &destination, fill)
+            Some(temporary) => write_file(temporary, &destination, keep, fill)
                 .map_err(|source| Error::Write { path, source }),
             None => write_stream(&path, fill).map_err(|source| Error::Stream { path, source }),
         }
@@ -123,6 +144,7 @@ fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
 fn write_file(
     temporary: NamedTempFile,
     target: &Path,
+    keep: Option<&Path>,
     fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut writer = BufWriter::with_capacity(1 << 16, temporary.as_file());
@@ -134,6 +156,11 @@ fn write_file(
         let _ = temporary.as_file().set_permissions(old.permissions());
     }
     temporary.as_file().sync_all()?;
+    if let Some(keep) = keep
+        && target.exists()
+    {
+        fs::rename(target, keep)?;
+    }
     temporary.persist(target).map_err(|failure| failure.error)?;
     sync_folder(folder(target));
     Ok(())

@@ -61,7 +61,7 @@ fn take(device: &mut dyn Device, scene: &Scene, samples: Range<u64>) -> Film {
         samples,
         ..Task::new(scene)
     };
-    let mut watch = |_| ControlFlow::Continue(());
+    let mut watch = |_: &_| ControlFlow::Continue(());
     render(device, &task, &mut watch).unwrap().film
 }
 

@@ -40,7 +40,7 @@ fn load(name: &str, changes: &[&str]) -> Scene {
 }
 
 fn take(scene: &Scene) -> Film {
-    let mut watch = |_| ControlFlow::Continue(());
+    let mut watch = |_: &_| ControlFlow::Continue(());
     let mut cpu = Cpu::new();
     render(&mut cpu, &Task::new(scene), &mut watch)
         .unwrap()

@@ -7,7 +7,7 @@ use lampray::cpu::Cpu;
 use lampray::device::{Device, run_ranges};
 use lampray::film::Film;
 use lampray::pack::{Packed, RUN_LENGTH, Rect, Tally};
-use lampray::render::{Plan, Task, render, render_plan, whole};
+use lampray::render::{Plan, Rendering, Task, go_on_by, render, whole};
 use lampray::scene::{Assignment, Scene};
 use std::ops::{ControlFlow, Range};
 
@@ -113,13 +113,15 @@ fn task(scene: &Scene) -> Task<'_> {
 }
 
 fn take(device: &mut dyn Device, task: &Task) -> Film {
-    let mut watch = |_| ControlFlow::Continue(());
+    let mut watch = |_: &_| ControlFlow::Continue(());
     render(device, task, &mut watch).unwrap().film
 }
 
 fn take_by(device: &mut dyn Device, task: &Task, plan: Plan) -> Film {
-    let mut watch = |_| ControlFlow::Continue(());
-    render_plan(device, task, plan, &mut watch).unwrap().film
+    let mut watch = |_: &_| ControlFlow::Continue(());
+    let mut rendering = Rendering::new(task);
+    go_on_by(device, task, plan, &mut rendering, &mut watch).unwrap();
+    rendering.film
 }
 
 /// All that a film has measured of a pixel, as bits.

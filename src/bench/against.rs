@@ -122,7 +122,7 @@ mod tests {
         let now = report(&["cpu"]);
         let mut then = now.clone();
         then.rows.remove(0);
-        then.rows[0].device_info.name = "another".into();
+        then.rows[0].device_info.driver = "another".into();
         then.machine.threads += 1;
         let against = Against::new(&now, &then, "x.json");
         assert_eq!((against.comparisons.len(), against.unmatched), (1, 1));

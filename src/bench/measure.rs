@@ -4,6 +4,7 @@ use super::effort::Effort;
 use super::machine::{forget_peak, peak};
 use crate::device::Device;
 use crate::error::Result;
+use crate::film::Stop;
 use crate::pack::Packed;
 use crate::render::{self, Task};
 use crate::scene::Scene;
@@ -85,12 +86,12 @@ fn trace(
 ) -> Result<Option<Measured>> {
     let before = device.readback();
     let started = Instant::now();
-    let rendering = render::render(device, &Task::new(scene), &mut |progress| {
-        watch(progress.paths as f64 / progress.total.max(1) as f64)
+    let rendering = render::render(device, &Task::new(scene), &mut |rendering| {
+        watch(rendering.share()).map_break(|()| Stop::Signal)
     })?;
     let total = started.elapsed().as_secs_f64();
     let readback = device.readback() - before;
-    Ok(rendering.complete.then(|| Measured {
+    Ok(rendering.complete().then(|| Measured {
         effort,
         paths: rendering.film.paths,
         rays: rendering.film.rays,

@@ -5,6 +5,7 @@ mod check;
 mod devices;
 mod diff;
 mod figures;
+mod keep;
 mod knobs;
 mod merge;
 mod options;
@@ -153,7 +154,7 @@ pub(crate) fn plain(text: &str) -> String {
 fn code(error: &Error) -> u8 {
     match error {
         Error::Knob(_) | Error::Usage(_) => 2,
-        Error::Scene(_) | Error::Data { .. } => 65,
+        Error::Scene(_) | Error::Data { .. } | Error::TooLarge(_) => 65,
         Error::Input { .. } => 66,
         Error::Device(_) => 69,
         Error::Internal(_) => INTERNAL,

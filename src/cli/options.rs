@@ -9,6 +9,7 @@ use crate::sweep::Axis;
 use clap::{Args, ValueEnum};
 use std::ops::Range;
 use std::path::Path;
+use std::time::Duration;
 
 /// Knobs over what the scene says.
 #[derive(Args, Clone, Debug, Default)]
@@ -169,6 +170,25 @@ pub(crate) fn crop(text: &str, scene: &Scene) -> Result<Rect> {
             "--crop {text}: give X0,Y0,X1,Y1 in pixels with 0 <= X0 < X1 <= {} and 0 <= Y0 < Y1 <= {}",
             all.x1, all.y1
         ))),
+    }
+}
+
+/// A number of seconds above 0, at most a year.
+pub(crate) fn seconds(text: &str) -> std::result::Result<Duration, String> {
+    const YEAR: f64 = 366.0 * 86400.0;
+    match text.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= YEAR => Ok(Duration::from_secs_f64(value)),
+        _ => Err("give seconds above 0, at most a year".into()),
+    }
+}
+
+/// An error relative to the mean: above 0, below 1.
+pub(crate) fn relative_error(text: &str) -> std::result::Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
+        _ => Err(
+            "give an error relative to the mean, above 0 and below 1 (0.01 is one percent)".into(),
+        ),
     }
 }
 

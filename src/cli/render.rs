@@ -1,5 +1,6 @@
+use super::keep::KeepOptions;
 use super::options::{DeviceOptions, KnobOptions, crop, sample_range};
-use super::run::Run;
+use super::run::{Run, StopRules};
 use super::{Output, Result};
 use crate::error::Error;
 use crate::film::Aov;
@@ -36,6 +37,13 @@ pub(crate) struct Command {
     /// Add layers of first hits to the EXR
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     aov: Vec<Aov>,
+    #[command(flatten)]
+    rules: StopRules,
+    #[command(flatten)]
+    keep: KeepOptions,
+    /// Leave times out of the files: equal renders are then equal files
+    #[arg(long)]
+    no_times: bool,
 }
 
 impl Command {
@@ -61,6 +69,9 @@ impl Command {
             samples,
             aovs: self.aov,
             device: &self.device,
+            rules: self.rules,
+            keep: self.keep,
+            no_times: self.no_times,
         }
         .go(output)
     }

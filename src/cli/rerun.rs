@@ -1,5 +1,6 @@
+use super::keep::KeepOptions;
 use super::options::DeviceOptions;
-use super::run::Run;
+use super::run::{Run, StopRules};
 use super::{Output, Result, note};
 use crate::device::DeviceKind;
 use crate::error::Error;
@@ -51,6 +52,9 @@ impl Command {
             samples: first..end,
             aovs,
             device: &device,
+            rules: StopRules::default(),
+            keep: KeepOptions::default(),
+            no_times: false,
         }
         .go(output)
     }

@@ -1,20 +1,21 @@
 //! What `render` and `rerun` share: from a scene to files and a record.
 
+use super::keep::{KeepOptions, Keeper};
 use super::options::DeviceOptions;
 use super::progress::bar;
 use super::signal::Watch;
 use super::{Output, note, print};
-use crate::cpu::Cpu;
 use crate::device::Device;
-use crate::error::{Error, Result};
-use crate::film::{Aov, Film, Record, Target, name_outputs};
+use crate::error::Result;
+use crate::film::{Aov, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
 use crate::pack::Rect;
-use crate::render::{self, Progress, Rendering, Task};
+use crate::render::{self, Rendering, Spares, Task};
 use crate::scene::Scene;
+use clap::Args;
 use indicatif::ProgressBar;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// A render as a command line asks for it.
 pub(crate) struct Run<'a> {
@@ -24,6 +25,21 @@ pub(crate) struct Run<'a> {
     pub samples: Range<u64>,
     pub aovs: Vec<Aov>,
     pub device: &'a DeviceOptions,
+    pub rules: StopRules,
+    pub keep: KeepOptions,
+    pub no_times: bool,
+}
+
+/// When to stop before the last sample.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct StopRules {
+    /// Stop after so long, all included, with what is done by then; render.samples stays the most
+    #[arg(long, value_name = "SECONDS", value_parser = super::options::seconds)]
+    time: Option<Duration>,
+    /// Stop when the standard error of the mean of the picture, relative to it, is at most E and so are those of
+    /// 95 % of the pixels; looked at after 64 samples and then each eighth more. render.samples stays the most
+    #[arg(long, value_name = "E", value_parser = super::options::relative_error)]
+    target_error: Option<f64>,
 }
 
 impl Run<'_> {
@@ -31,49 +47,57 @@ impl Run<'_> {
     pub(crate) fn go(self, output: Output) -> Result<()> {
         let started = Instant::now();
         // Watched from the start: a signal must find no temporary file that nobody would remove.
-        let signals = Watch::new();
-        let targets = Target::prepare_all(&self.outputs)?;
-        let mut device = self.open(output)?;
+        let signals = Watch::of_render();
         let task = Task {
             region: self.region,
             samples: self.samples.clone(),
             features: !self.aovs.is_empty(),
+            target_error: self.rules.target_error,
             ..Task::new(self.scene)
         };
-        let opening = started.elapsed();
-        let rendering = self.render(device.as_mut(), &task, &signals, output);
-        let rendering = match rendering {
-            // The device cannot take this scene. Where any will do there is one that can.
-            Err(Error::Device(reason)) if self.device.any() => {
+        render::refuse_too_large(&task)?;
+        let targets = Target::prepare_all(&self.outputs)?;
+        let mut device = self.open(output)?;
+        let wanted = render::record(&task, device.info(), &Rendering::new(&task));
+        let (mut keeper, mut rendering) = match self.keep.keeper(&task, &wanted)? {
+            Some((keeper, rendering)) => (Some(keeper), rendering),
+            None => (None, Rendering::new(&task)),
+        };
+        let session = Session {
+            run: &self,
+            task: &task,
+            started,
+            opening: started.elapsed(),
+            output,
+        };
+        let traced = session.trace(&mut device, &mut rendering, &mut keeper, &signals);
+        let written = session.write(&rendering, targets);
+        if let Some(keeper) = &mut keeper {
+            if written.is_ok()
+                && rendering
+                    .stopped
+                    .is_none_or(|stop| stop == Stop::TargetError)
+                && traced.is_ok()
+            {
+                keeper.remove();
+            } else {
+                keeper.save(&task, &rendering)?;
                 remark(
-                    &format!("{reason}; rendering with the built-in CPU renderer"),
+                    &format!("--resume goes on from {}", keeper.path().display()),
                     output,
                 );
-                device = Box::new(Cpu::new());
-                self.render(device.as_mut(), &task, &signals, output)?
             }
-            outcome => outcome?,
-        };
-        if rendering.film.counts.contains(&0) {
-            remark(
-                "stopped before every pixel had a sample: nothing is written",
-                output,
-            );
+        }
+        traced?;
+        let Some(record) = written? else {
             return Ok(());
-        }
-        let mut picture = render::picture(&task, device.info(), &rendering, &self.aovs);
-        name_outputs(&mut picture.record, &targets);
-        picture.record.seconds.setup += opening.as_secs_f64();
-        picture.record.seconds.total = started.elapsed().as_secs_f64();
-        for target in targets {
-            target.write(&picture)?;
-        }
+        };
         if !output.quiet {
             warn_non_finite(&rendering.film);
-            note(&summary(&picture.record));
+            note(&summary(&record));
         }
         if output.json {
-            print(&(picture.record.to_json() + "\n"))
+            print(&(record.to_json() + "\n"))
         } else {
             Ok(())
         }
@@ -86,28 +110,106 @@ impl Run<'_> {
         }
         Ok(chosen.device)
     }
+}
 
-    /// Renders under a progress bar, until done or until a signal asks to stop.
-    fn render(
+/// A render under way.
+struct Session<'a> {
+    run: &'a Run<'a>,
+    task: &'a Task<'a>,
+    started: Instant,
+    /// Until the device was open.
+    opening: Duration,
+    output: Output,
+}
+
+impl Session<'_> {
+    /// Renders under a progress bar, until done or until somebody says stop.
+    fn trace(
         &self,
-        device: &mut dyn Device,
-        task: &Task,
+        device: &mut Box<dyn Device>,
+        rendering: &mut Rendering,
+        keeper: &mut Option<Keeper>,
         signals: &Watch,
-        output: Output,
-    ) -> Result<Rendering> {
-        let bar = progress_bar(output, self.scene);
-        let mut watch = |progress: Progress| {
-            bar.set_length(progress.total);
-            bar.set_position(progress.paths);
-            if signals.stopped() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
+    ) -> Result<()> {
+        let bar = progress_bar(self.output, self.run.scene);
+        let mut watch = |rendering: &Rendering| {
+            bar.set_length(rendering.total);
+            bar.set_position(rendering.film.paths);
+            if signals.hung_up() {
+                bar.suspend(|| self.write_meanwhile(rendering));
+            }
+            if let Some(keeper) = keeper {
+                keeper.save_if_due(self.task, rendering);
+            }
+            let late = self
+                .run
+                .rules
+                .time
+                .is_some_and(|time| self.started.elapsed() >= time);
+            match (signals.stopped(), late) {
+                (true, _) => ControlFlow::Break(Stop::Signal),
+                (_, true) => ControlFlow::Break(Stop::Time),
+                _ => ControlFlow::Continue(()),
             }
         };
-        let rendering = render::render(device, task, &mut watch);
+        let spares = Spares {
+            anew: &mut || self.run.device.open().map(|chosen| chosen.device),
+            any: self.run.device.any(),
+            tell: &mut |text| bar.suspend(|| remark(text, self.output)),
+        };
+        let traced = render::endure(device, self.task, rendering, spares, &mut watch);
         bar.finish_and_clear();
-        rendering
+        traced
+    }
+
+    /// The picture as it stands; none while there are pixels without a sample.
+    fn picture(&self, rendering: &Rendering) -> Option<Picture> {
+        let device = rendering.devices.first()?;
+        if rendering.film.counts.contains(&0) {
+            return None;
+        }
+        let mut picture = render::picture(self.task, device, rendering, &self.run.aovs);
+        let seconds = &mut picture.record.seconds;
+        seconds.setup += self.opening.as_secs_f64();
+        seconds.total = self.started.elapsed().as_secs_f64();
+        Some(picture)
+    }
+
+    /// Writes the picture; its record, if there is one.
+    fn write(&self, rendering: &Rendering, targets: Vec<Target>) -> Result<Option<Record>> {
+        let Some(mut picture) = self.picture(rendering) else {
+            remark(
+                "stopped before every pixel had a sample: no picture is written",
+                self.output,
+            );
+            return Ok(None);
+        };
+        name_outputs(&mut picture.record, &targets);
+        let record = picture.record.clone();
+        if self.run.no_times {
+            picture.record.seconds = Seconds::default();
+        }
+        for target in targets {
+            target.write(&picture)?;
+        }
+        Ok(Some(record))
+    }
+
+    /// Writes the picture so far, and lets the render go on.
+    fn write_meanwhile(&self, rendering: &Rendering) {
+        let files = self
+            .run
+            .outputs
+            .iter()
+            .filter(|path| !Path::new(path).exists() || path.is_file());
+        let files: Vec<_> = files.collect();
+        let written =
+            Target::prepare_all(&files).and_then(|targets| self.write(rendering, targets));
+        match written {
+            Ok(Some(record)) => remark(&format!("{}; going on", summary(&record)), self.output),
+            Ok(None) => {}
+            Err(error) => note(&format!("lampray: warning: {error}; the render goes on")),
+        }
     }
 }
 
@@ -141,11 +243,18 @@ fn warn_non_finite(film: &Film) {
 
 /// One line on what was made: files, size, samples, speed, device.
 fn summary(record: &Record) -> String {
-    let state = if record.complete {
-        ""
-    } else {
-        " (stopped early)"
+    let state = match record.stopped {
+        None if record.complete => "",
+        None => " so far",
+        Some(Stop::TargetError) => " (error as asked for)",
+        Some(Stop::Time) => " (time is up)",
+        Some(Stop::Signal) => " (stopped)",
     };
+    let devices: Vec<_> = record
+        .all_devices()
+        .into_iter()
+        .map(|device| device.name)
+        .collect();
     let speed = record.paths as f64 / record.seconds.render.max(1e-9) / 1e6;
     format!(
         "{}: {}x{}, {} samples a pixel{state} in {:.2} s ({speed:.2} Msamples/s) on {}",
@@ -154,6 +263,6 @@ fn summary(record: &Record) -> String {
         record.height,
         record.samples,
         record.seconds.render,
-        record.device.name
+        devices.join(" and ")
     )
 }

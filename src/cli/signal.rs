@@ -13,9 +13,16 @@ const SIGNALS: [i32; 2] = [signal_hook::consts::SIGINT, signal_hook::consts::SIG
 #[cfg(not(unix))]
 const SIGNALS: [i32; 1] = [signal_hook::consts::SIGINT];
 
+/// Asks for the picture so far; the signal that tells programs that their terminal has gone.
+#[cfg(unix)]
+const HANG_UP: Option<i32> = Some(signal_hook::consts::SIGHUP);
+#[cfg(not(unix))]
+const HANG_UP: Option<i32> = None;
+
 /// Watches for signals from now on.
 pub(crate) struct Watch {
     flags: Vec<(i32, Arc<AtomicBool>)>,
+    hung_up: Arc<AtomicBool>,
 }
 
 impl Watch {
@@ -34,7 +41,22 @@ impl Watch {
         });
         Self {
             flags: flags.to_vec(),
+            hung_up: Arc::default(),
         }
+    }
+
+    /// As [`Watch::new`], for work that can show what is done and go on when it is hung up on.
+    pub(crate) fn of_render() -> Self {
+        let watch = Self::new();
+        if let Some(signal) = HANG_UP {
+            let _ = signal_hook::flag::register(signal, watch.hung_up.clone());
+        }
+        watch
+    }
+
+    /// Whether somebody has asked for the picture so far since this was last asked.
+    pub(crate) fn hung_up(&self) -> bool {
+        self.hung_up.swap(false, Ordering::SeqCst)
     }
 
     /// Whether somebody has asked to stop.

@@ -18,14 +18,16 @@ pub mod scene;
 pub mod sphere;
 pub mod trace;
 
-use crate::device::{Device, DeviceInfo, DeviceKind, runs};
+use crate::device::{Block, Device, DeviceInfo, DeviceKind, Traced, runs};
 use crate::error::{Error, Result};
 use crate::pack::{Draw, Feature, Hierarchy, Packed, PointsJob, Rect, Strategy, Tally};
 use bvh::ByTree;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use scene::Traversal;
+use std::collections::VecDeque;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// What a scene's rays are traced among.
 #[derive(Debug)]
@@ -39,6 +41,8 @@ enum Bodies {
 pub struct Cpu {
     info: DeviceInfo,
     scene: Option<(Packed, Bodies)>,
+    /// Blocks that were started: each is traced when it is asked for, by all cores.
+    started: VecDeque<Block>,
 }
 
 impl Default for Cpu {
@@ -52,6 +56,7 @@ impl Cpu {
         Self {
             info: info(),
             scene: None,
+            started: VecDeque::new(),
         }
     }
 
@@ -59,6 +64,31 @@ impl Cpu {
         self.scene
             .as_ref()
             .ok_or_else(|| Error::Internal("no scene is loaded".into()))
+    }
+
+    /// The tallies of a block, in the order of [`Traced`].
+    fn tallies(&self, block: Block) -> Result<Vec<Tally>> {
+        let (scene, bodies) = self.scene()?;
+        let job = scene.job(block.rect, block.first_sample, block.samples);
+        let by_pixel: Vec<Vec<Tally>> = match bodies {
+            Bodies::Four(four) => {
+                let tracer = trace::Tracer::new(scene, four, &job);
+                pixels(block.rect)
+                    .map(|pixel| traced_by_loops(&tracer, pixel))
+                    .collect()
+            }
+            Bodies::Tree(hierarchy) => {
+                let tree = ByTree { scene, hierarchy };
+                let tracer = trace::Tracer::new(scene, &tree, &job);
+                pixels(block.rect)
+                    .map(|pixel| traced_by_tree(&tracer, pixel))
+                    .collect()
+            }
+        };
+        let runs = runs(block.first_sample, block.samples) as usize;
+        Ok((0..runs)
+            .flat_map(|run| by_pixel.iter().map(move |tallies| tallies[run]))
+            .collect())
     }
 }
 
@@ -101,28 +131,20 @@ impl Device for Cpu {
         Ok(())
     }
 
-    fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let (scene, bodies) = self.scene()?;
-        let job = scene.job(rect, first_sample, samples);
-        let by_pixel: Vec<Vec<Tally>> = match bodies {
-            Bodies::Four(four) => {
-                let tracer = trace::Tracer::new(scene, four, &job);
-                pixels(rect)
-                    .map(|pixel| traced_by_loops(&tracer, pixel))
-                    .collect()
-            }
-            Bodies::Tree(hierarchy) => {
-                let tree = ByTree { scene, hierarchy };
-                let tracer = trace::Tracer::new(scene, &tree, &job);
-                pixels(rect)
-                    .map(|pixel| traced_by_tree(&tracer, pixel))
-                    .collect()
-            }
-        };
-        let runs = runs(first_sample, samples) as usize;
-        Ok((0..runs)
-            .flat_map(|run| by_pixel.iter().map(move |tallies| tallies[run]))
-            .collect())
+    fn start(&mut self, block: Block) -> Result<()> {
+        self.started.push_back(block);
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<Traced> {
+        let none = || Error::Internal("no block was started".into());
+        let block = self.started.pop_front().ok_or_else(none)?;
+        let began = Instant::now();
+        let tallies = self.tallies(block)?;
+        Ok(Traced {
+            tallies,
+            took: began.elapsed(),
+        })
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {

@@ -167,7 +167,9 @@ fn add_record(sum: &mut Record, other: &Record) {
     sum.seconds.setup += other.seconds.setup;
     sum.seconds.render += other.seconds.render;
     sum.seconds.total += other.seconds.total;
+    sum.seconds.longest_block = sum.seconds.longest_block.max(other.seconds.longest_block);
     sum.complete &= other.complete;
+    sum.stopped = sum.stopped.or(other.stopped);
     sum.biased |= other.biased;
 }
 

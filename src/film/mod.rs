@@ -12,6 +12,7 @@
 //! [`Raster`] is what any file holds, as it stores it.
 
 mod bytes;
+mod checkpoint;
 mod curve;
 mod exr;
 mod input;
@@ -26,9 +27,12 @@ mod raster;
 mod raster_file;
 mod read;
 mod record;
+mod relative;
+mod same;
 mod tables;
 mod text;
 
+pub use checkpoint::{Checkpoint, previous};
 pub use curve::Curve;
 pub use merge::merge;
 pub use moments::{Film, NonFinite};
@@ -37,5 +41,6 @@ pub use picture::{Aov, Features, Picture};
 pub use raster::{Noise, Pixels, Raster, Transfer};
 pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
-pub use record::{Record, Seconds};
+pub use record::{Record, Seconds, Stop};
+pub use relative::RelativeError;
 pub use text::SCENE_TEXT_LIMIT;

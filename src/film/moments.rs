@@ -1,7 +1,12 @@
 //! The first two moments of every pixel, summed in f64.
 
 use super::{Features, Picture, Record};
+use crate::device::{Block, run_ranges};
 use crate::pack::{Rect, Tally};
+use rayon::prelude::*;
+
+/// Fewer tallies than this are added faster than other threads are woken.
+const PARALLEL: usize = 1 << 17;
 
 /// What has been measured of a rectangle of pixels so far.
 ///
@@ -56,33 +61,70 @@ impl Film {
     ///
     /// Sums in f64 are not associative: the same runs in the same order give the same film.
     pub fn add(&mut self, pixel: usize, first_sample: u64, samples: u32, tally: &Tally) {
-        let n = f64::from(samples);
-        for channel in 0..3 {
-            let mean = f64::from(tally.mean[channel]);
-            self.sums[pixel][channel] += n * mean;
-            self.squares[pixel][channel] += f64::from(tally.squares[channel]) + n * mean * mean;
-        }
-        self.counts[pixel] += u64::from(samples);
-        self.paths += u64::from(samples);
-        self.rays += u64::from(tally.rays);
-        self.add_non_finite(pixel, first_sample, tally.non_finite);
-    }
-
-    /// `packed` is [`Tally::non_finite`]: how many below, the place of the first above.
-    fn add_non_finite(&mut self, pixel: usize, first_sample: u64, packed: u32) {
-        let count = packed & 0xffff;
-        if count == 0 {
-            return;
-        }
-        self.non_finite += u64::from(count);
         // Both fit: a region's width and height are u32.
         let width = self.region.width() as usize;
-        let found = NonFinite {
-            sample: first_sample + u64::from(packed >> 16),
-            y: self.region.y0 + (pixel / width) as u32,
-            x: self.region.x0 + (pixel % width) as u32,
+        let at = [
+            self.region.x0 + (pixel % width) as u32,
+            self.region.y0 + (pixel / width) as u32,
+        ];
+        let mut row = Row {
+            sums: &mut self.sums[pixel..],
+            squares: &mut self.squares[pixel..],
+            counts: &mut self.counts[pixel..],
         };
-        self.first_non_finite = Some(self.first_non_finite.map_or(found, |old| old.min(found)));
+        let mut totals = Totals::default();
+        totals.add(at, first_sample, samples, tally);
+        row.add(0, samples, tally);
+        self.count(totals);
+    }
+
+    /// Adds what a device made of a block: tallies run by run, and in each run row by row, as many as there
+    /// are.
+    pub fn add_block(&mut self, block: &Block, tallies: &[Tally]) {
+        let (rect, region) = (block.rect, self.region);
+        let (width, wide) = (region.width() as usize, rect.width() as usize);
+        let pixels = (rect.y0 - region.y0) as usize * width..(rect.y1 - region.y0) as usize * width;
+        let column = (rect.x0 - region.x0) as usize;
+        let add = |(y, mut row): (usize, Row)| {
+            let mut totals = Totals::default();
+            let runs = run_ranges(block.first_sample, block.samples);
+            for ((first, samples), run) in runs.zip(tallies.chunks(rect.area())) {
+                let of_row = run.iter().skip(y * wide).take(wide);
+                for (x, tally) in of_row.enumerate() {
+                    row.add(column + x, samples, tally);
+                    let at = [rect.x0 + x as u32, rect.y0 + y as u32];
+                    totals.add(at, first, samples, tally);
+                }
+            }
+            totals
+        };
+        let rows = self.sums[pixels.clone()]
+            .chunks_mut(width)
+            .zip(self.squares[pixels.clone()].chunks_mut(width))
+            .zip(self.counts[pixels].chunks_mut(width))
+            .map(|((sums, squares), counts)| Row {
+                sums,
+                squares,
+                counts,
+            });
+        let totals = if tallies.len() < PARALLEL {
+            rows.enumerate()
+                .map(add)
+                .fold(Totals::default(), Totals::with)
+        } else {
+            let rows: Vec<_> = rows.enumerate().collect();
+            rows.into_par_iter()
+                .map(add)
+                .reduce(Totals::default, Totals::with)
+        };
+        self.count(totals);
+    }
+
+    fn count(&mut self, more: Totals) {
+        self.paths = self.paths.saturating_add(more.paths);
+        self.rays = self.rays.saturating_add(more.rays);
+        self.non_finite = self.non_finite.saturating_add(more.non_finite);
+        self.first_non_finite = earlier(self.first_non_finite, more.first_non_finite);
     }
 
     /// Mean radiance of a pixel; black before its first sample.
@@ -162,6 +204,64 @@ impl Film {
             scene_text,
         }
     }
+}
+
+/// Pixels side by side, to be added to.
+struct Row<'a> {
+    sums: &'a mut [[f64; 3]],
+    squares: &'a mut [[f64; 3]],
+    counts: &'a mut [u64],
+}
+
+impl Row<'_> {
+    fn add(&mut self, pixel: usize, samples: u32, tally: &Tally) {
+        let n = f64::from(samples);
+        for channel in 0..3 {
+            let mean = f64::from(tally.mean[channel]);
+            self.sums[pixel][channel] += n * mean;
+            self.squares[pixel][channel] += f64::from(tally.squares[channel]) + n * mean * mean;
+        }
+        self.counts[pixel] += u64::from(samples);
+    }
+}
+
+/// What a film counts over all pixels, of some runs.
+#[derive(Clone, Copy, Default)]
+struct Totals {
+    paths: u64,
+    rays: u64,
+    non_finite: u64,
+    first_non_finite: Option<NonFinite>,
+}
+
+impl Totals {
+    /// Counts one run of the pixel `at` column and row of the whole image.
+    fn add(&mut self, at: [u32; 2], first_sample: u64, samples: u32, tally: &Tally) {
+        self.paths += u64::from(samples);
+        self.rays += u64::from(tally.rays);
+        // How many below, the place of the first above.
+        let count = tally.non_finite & 0xffff;
+        if count > 0 {
+            self.non_finite += u64::from(count);
+            let [x, y] = at;
+            let sample = first_sample + u64::from(tally.non_finite >> 16);
+            let found = NonFinite { sample, y, x };
+            self.first_non_finite = earlier(self.first_non_finite, Some(found));
+        }
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            paths: self.paths + other.paths,
+            rays: self.rays + other.rays,
+            non_finite: self.non_finite + other.non_finite,
+            first_non_finite: earlier(self.first_non_finite, other.first_non_finite),
+        }
+    }
+}
+
+fn earlier(a: Option<NonFinite>, b: Option<NonFinite>) -> Option<NonFinite> {
+    a.into_iter().chain(b).min()
 }
 
 /// The mean of a picture and its standard error, pixel after pixel.

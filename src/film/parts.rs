@@ -1,10 +1,10 @@
 //! Whether pictures are parts of one render.
 
+use super::same::difference;
 use super::{Picture, Record, read_exr, read_record};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use crate::knobs::short;
-use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The knob in which the parts may differ: how many samples.
@@ -58,21 +58,13 @@ impl Part {
 
 /// Refuses two pictures that are not of one render.
 pub(super) fn compare(first: &Part, other: &Part, allow_mixed: bool) -> Result<()> {
-    let (a, b) = (&first.record, &other.record);
-    let fields = [
-        ("scene_hash", a.scene_hash.clone(), b.scene_hash.clone()),
-        ("shader_hash", a.shader_hash.clone(), b.shader_hash.clone()),
-        ("width", a.width.to_string(), b.width.to_string()),
-        ("height", a.height.to_string(), b.height.to_string()),
-        ("crop", format!("{:?}", a.crop), format!("{:?}", b.crop)),
-        ("seed", a.seed.to_string(), b.seed.to_string()),
-    ];
-    for (field, one, another) in fields {
-        if one != another {
-            return differ(first, other, field, &one, &another);
-        }
+    if let Some(found) = difference(&first.record, &other.record, Some(SAMPLES)) {
+        let first = first.path.display();
+        return other.fail(format!(
+            "{} is {}, but {} in {first}: not the same render",
+            found.what, found.other, found.one
+        ));
     }
-    compare_knobs(first, other)?;
     if !allow_mixed {
         compare_devices(first, other)?;
     }
@@ -94,26 +86,6 @@ fn compare_devices(first: &Part, other: &Part) -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn compare_knobs(first: &Part, other: &Part) -> Result<()> {
-    let (a, b) = (&first.record.knobs, &other.record.knobs);
-    let shown = |value: Option<&Value>| value.map_or("absent".into(), |v| v.to_string());
-    for knob in a.keys().chain(b.keys()).filter(|knob| *knob != SAMPLES) {
-        let (one, another) = (a.get(knob), b.get(knob));
-        if one != another {
-            return differ(first, other, knob, &shown(one), &shown(another));
-        }
-    }
-    Ok(())
-}
-
-fn differ<T>(first: &Part, other: &Part, what: &str, one: &str, another: &str) -> Result<T> {
-    let first = first.path.display();
-    let [what, one, another] = [what, one, another].map(short);
-    other.fail(format!(
-        "{what} is {another}, but {one} in {first}: not the same render"
-    ))
 }
 
 fn describe(device: &DeviceInfo) -> String {

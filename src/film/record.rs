@@ -43,6 +43,9 @@ pub struct Record {
     pub seed: u64,
     /// Whether all samples that were asked for have been taken.
     pub complete: bool,
+    /// Why it ended before the last of them; absent where it did not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<Stop>,
     pub biased: bool,
     pub seconds: Seconds,
     pub paths: u64,
@@ -89,8 +92,10 @@ impl Record {
             setup,
             render,
             total,
+            longest_block,
         } = self.seconds;
-        let short = [setup, render, total].map(|value| LONGEST.saturating_sub(written(value)));
+        let short = [setup, render, total, longest_block]
+            .map(|value| LONGEST.saturating_sub(written(value)));
         self.to_json() + &" ".repeat(short.iter().sum())
     }
 }
@@ -104,6 +109,22 @@ pub struct Seconds {
     pub render: f64,
     /// All of it, writing of files excepted where the record is inside them.
     pub total: f64,
+    /// The longest that the device was at one block of the work, which is one dispatch or several: so long does
+    /// a signal wait, or anybody else who wants the device.
+    #[serde(default)]
+    pub longest_block: f64,
+}
+
+/// Why a render ended before its last sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stop {
+    /// Its error was as small as was asked for.
+    TargetError,
+    /// It had taken as long as was asked for.
+    Time,
+    /// Somebody wanted it to.
+    Signal,
 }
 
 #[cfg(test)]
@@ -117,6 +138,7 @@ mod tests {
                 setup,
                 render,
                 total,
+                longest_block: render,
             };
             let record = Record {
                 seconds,

@@ -2,48 +2,60 @@
 
 use super::adapter::Adapters;
 use super::cache::{Cache, Key};
+use super::fault::Fault;
+use super::flight::{Flight, Pace, Rooms};
 use super::guard::Guard;
-use super::pieces::{Allowance, Gathered, pieces};
+use super::pieces::{Allowance, pieces};
 use super::pipeline::Pipeline;
-use crate::device::{Device, DeviceInfo, runs};
+use super::trace::Queue;
+use crate::device::{Block, Device, DeviceInfo, Traced};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::panics::catch;
 use crate::shader::{Baked, Kernel, SceneArray, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The id of a feature whose ray was left before its end.
 const UNFINISHED: u32 = u32::MAX;
 
-/// The buffers that results come back in; they grow with the largest block so far.
-#[derive(Debug)]
-struct Results {
-    storage: wgpu::Buffer,
-    staging: wgpu::Buffer,
-    bytes: u64,
-}
-
 /// The scene on the device, with what traces it.
 #[derive(Debug)]
-struct Loaded {
-    packed: Packed,
-    allowance: Allowance,
-    arrays: SceneArrays,
+pub(super) struct Loaded {
+    pub(super) packed: Packed,
+    pub(super) allowance: Allowance,
+    pub(super) arrays: SceneArrays,
     /// The printed part of its tracing kernel; its features are found by the general one.
-    baked: Option<Arc<Baked>>,
-    buffers: Vec<wgpu::Buffer>,
+    pub(super) baked: Option<Arc<Baked>>,
+    pub(super) buffers: Vec<wgpu::Buffer>,
 }
 
 /// A graphics device that traces.
 #[derive(Debug)]
 pub struct Gpu {
-    info: DeviceInfo,
+    pub(super) info: DeviceInfo,
     guard: Guard,
     pipelines: Cache<Arc<Pipeline>>,
-    results: Option<Results>,
+    rooms: Rooms,
+    pace: Pace,
     loaded: Option<Loaded>,
+    pub(super) queue: Queue,
+    fault: Fault,
+}
+
+/// What a kernel runs over.
+pub(super) struct Work<'a> {
+    pub(super) pipeline: &'a Pipeline,
+    /// Whether it traces, and so binds the scene.
+    pub(super) scene: bool,
+    /// The buffers of its own, in order.
+    pub(super) inputs: &'a [(&'a [u8], wgpu::BufferUsages)],
+    pub(super) groups: [u32; 2],
+    /// Of the results.
+    pub(super) bytes: u64,
+    /// Paths, where it traces them.
+    pub(super) paths: Option<u64>,
 }
 
 impl Gpu {
@@ -73,14 +85,17 @@ impl Gpu {
             info: info.clone(),
             guard: Guard::new(device, queue, &info.name),
             pipelines: Cache::new(),
-            results: None,
+            rooms: Rooms::default(),
+            pace: Pace::default(),
             loaded: None,
+            queue: Queue::default(),
+            fault: Fault::of_this_device(),
         })
     }
 
     /// The pipeline of a kernel, compiled on first use. Kernels without a scene have no arrays, and one that
     /// is baked is for a single scene.
-    fn pipeline(
+    pub(super) fn pipeline(
         &mut self,
         kernel: Kernel,
         strategy: &Strategy,
@@ -109,25 +124,60 @@ impl Gpu {
         Ok(pipeline)
     }
 
-    /// Makes room for `bytes` of results.
-    fn reserve(&mut self, bytes: u64) -> Result<()> {
-        if self
-            .results
-            .as_ref()
-            .is_none_or(|results| results.bytes < bytes)
-        {
-            self.results = None;
-            let storage = wgpu::BufferUsages::STORAGE
-                | wgpu::BufferUsages::COPY_SRC
-                | wgpu::BufferUsages::COPY_DST;
-            let staging = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
-            self.results = Some(Results {
-                storage: self.guard.buffer(bytes, storage)?,
-                staging: self.guard.buffer(bytes, staging)?,
-                bytes,
-            });
-        }
-        Ok(())
+    /// Submits a kernel's work.
+    pub(super) fn launch(&mut self, work: &Work) -> Result<Flight> {
+        let guard = &self.guard;
+        let room = self.rooms.take(guard, work.bytes)?;
+        let inputs: Vec<_> = work
+            .inputs
+            .iter()
+            .map(|(bytes, usage)| guard.filled(bytes, *usage))
+            .collect::<Result<_>>()?;
+        let scene_buffers: Vec<_> = match &self.loaded {
+            Some(loaded) if work.scene => loaded.buffers.iter().collect(),
+            _ => Vec::new(),
+        };
+        let scene_group = guard.bind(&work.pipeline.scene_layout, &scene_buffers)?;
+        let pass_buffers: Vec<_> = inputs.iter().chain([&room.storage]).collect();
+        let pass_group = guard.bind(&work.pipeline.pass_layout, &pass_buffers)?;
+        let commands = guard.scoped(|device| {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            // What a lane does not write reads as zero, not as a result of another dispatch.
+            encoder.clear_buffer(&room.storage, 0, Some(work.bytes));
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                pass.set_pipeline(&work.pipeline.pipeline);
+                pass.set_bind_group(0, &scene_group, &[]);
+                pass.set_bind_group(1, &pass_group, &[]);
+                pass.dispatch_workgroups(work.groups[0], work.groups[1], 1);
+            }
+            encoder.copy_buffer_to_buffer(&room.storage, 0, &room.staging, 0, work.bytes);
+            encoder.finish()
+        })?;
+        Ok(Flight {
+            started: Instant::now(),
+            submission: guard.submit(commands)?,
+            room,
+            bytes: work.bytes,
+            paths: work.paths,
+        })
+    }
+
+    /// Waits for what was submitted; its results, and how long the device took for them.
+    pub(super) fn land<T: Pod>(&mut self, flight: Flight) -> Result<(Vec<T>, Duration)> {
+        let patience = self.pace.patience(&flight);
+        let Flight {
+            room,
+            bytes,
+            submission,
+            started,
+            paths,
+        } = flight;
+        let items = self
+            .guard
+            .read(&room.staging, bytes, &submission, patience)?;
+        self.rooms.give_back(room);
+        Ok((items, self.pace.landed(started, paths)))
     }
 
     /// Runs a kernel over `groups` and returns its `count` results. `scene` is whether it traces.
@@ -139,114 +189,21 @@ impl Gpu {
         groups: [u32; 2],
         count: usize,
     ) -> Result<Vec<T>> {
-        let bytes = (count * size_of::<T>()) as u64;
-        self.reserve(bytes)?;
-        let (Some(results), guard) = (&self.results, &self.guard) else {
-            return Err(Error::Internal("no room for results".into()));
-        };
-        let inputs: Vec<_> = inputs
-            .iter()
-            .map(|(bytes, usage)| guard.filled(bytes, *usage))
-            .collect::<Result<_>>()?;
-        let scene_buffers: Vec<_> = match &self.loaded {
-            Some(loaded) if scene => loaded.buffers.iter().collect(),
-            _ => Vec::new(),
-        };
-        let scene_group = guard.bind(&pipeline.scene_layout, &scene_buffers)?;
-        let pass_buffers: Vec<_> = inputs.iter().chain([&results.storage]).collect();
-        let pass_group = guard.bind(&pipeline.pass_layout, &pass_buffers)?;
-        let commands = guard.scoped(|device| {
-            let mut encoder = device.create_command_encoder(&Default::default());
-            // What a lane does not write reads as zero, not as a result of another dispatch.
-            encoder.clear_buffer(&results.storage, 0, Some(bytes));
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                pass.set_pipeline(&pipeline.pipeline);
-                pass.set_bind_group(0, &scene_group, &[]);
-                pass.set_bind_group(1, &pass_group, &[]);
-                pass.dispatch_workgroups(groups[0], groups[1], 1);
-            }
-            encoder.copy_buffer_to_buffer(&results.storage, 0, &results.staging, 0, bytes);
-            encoder.finish()
+        let flight = self.launch(&Work {
+            pipeline,
+            scene,
+            inputs,
+            groups,
+            bytes: (count * size_of::<T>()) as u64,
+            paths: None,
         })?;
-        guard.submit(commands)?;
-        guard.read(&results.staging, bytes)
+        self.land(flight).map(|(items, _)| items)
     }
 
-    fn scene(&self) -> Result<&Loaded> {
+    pub(super) fn scene(&self) -> Result<&Loaded> {
         self.loaded
             .as_ref()
             .ok_or_else(|| Error::Internal("no scene is loaded".into()))
-    }
-
-    /// Traces samples in one dispatch. Lanes that take too many steps write no tallies.
-    fn trace_piece(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
-        let loaded = self.scene()?;
-        let mut job = loaded.packed.job(rect, first_sample, samples);
-        job.steps = loaded.allowance.steps(job.steps, rect);
-        let (strategy, arrays) = (loaded.packed.strategy, loaded.arrays);
-        let baked = loaded.baked.clone();
-        let pipeline = self.pipeline(Kernel::Trace, &strategy, Some(arrays), baked.as_deref())?;
-        let count = rect.area() * runs(first_sample, samples) as usize;
-        let inputs = [(bytemuck::bytes_of(&job), wgpu::BufferUsages::UNIFORM)];
-        self.dispatch(&pipeline, true, &inputs, tiles(rect), count)
-    }
-
-    /// Traces again what lanes left undone, pixels without tallies: first each alone, where it may take
-    /// as many iterations as a group of lanes otherwise, then in halves. A run is broken only where it
-    /// is too long for a lane alone, so that the picture does not depend on how the work was split.
-    fn mend(
-        &mut self,
-        rect: Rect,
-        first_sample: u64,
-        samples: u32,
-        mut tallies: Vec<Tally>,
-    ) -> Result<Vec<Tally>> {
-        let area = rect.area();
-        for pixel in 0..area {
-            // Every sample takes a ray: a tally without one was never written.
-            let mut of_pixel = tallies.iter().skip(pixel).step_by(area);
-            if of_pixel.all(|tally| tally.rays > 0) {
-                continue;
-            }
-            let alone = area == 1;
-            if self.scene()?.packed.hierarchy.is_none() || (alone && samples == 1) {
-                return Err(self.cut_short("a path took too many steps"));
-            }
-            let most = if alone {
-                samples.next_power_of_two() / 2
-            } else {
-                1 << 31
-            };
-            let whole = self.trace_in_pieces(rect.pixel(pixel), first_sample, samples, most)?;
-            for (run, tally) in whole.into_iter().enumerate() {
-                tallies[run * area + pixel] = tally;
-            }
-        }
-        Ok(tallies)
-    }
-
-    fn trace_in_pieces(
-        &mut self,
-        rect: Rect,
-        first_sample: u64,
-        samples: u32,
-        most: u32,
-    ) -> Result<Vec<Tally>> {
-        let mut gathered = Gathered::new(rect.area());
-        for (first, count) in pieces(first_sample, samples, most) {
-            let tallies = self.trace_piece(rect, first, count)?;
-            let tallies = self.mend(rect, first, count, tallies)?;
-            gathered.add(first, count, &tallies);
-        }
-        Ok(gathered.tallies)
-    }
-
-    fn cut_short(&self, what: &str) -> Error {
-        Error::Device(format!(
-            "the device {} stops a kernel after 65,535 loop iterations, and {what}; use --device cpu or a smaller scene or render.max_bounces",
-            self.info.name
-        ))
     }
 
     /// Runs a library function over a list of inputs, for tests.
@@ -298,7 +255,7 @@ fn array_bytes(array: &SceneArray, scene: &Packed) -> Vec<u8> {
 }
 
 /// Groups of 8 x 8 lanes over a rectangle.
-fn tiles(rect: Rect) -> [u32; 2] {
+pub(super) fn tiles(rect: Rect) -> [u32; 2] {
     [rect.width().div_ceil(8), rect.height().div_ceil(8)]
 }
 
@@ -326,6 +283,8 @@ impl Device for Gpu {
         for array in arrays.storage() {
             buffers.push(guard.filled(&bytes(&array), wgpu::BufferUsages::STORAGE)?);
         }
+        self.pace.forget();
+        self.queue = Queue::default();
         self.loaded = Some(Loaded {
             packed: scene.clone(),
             allowance,
@@ -334,22 +293,35 @@ impl Device for Gpu {
             buffers,
         });
         // Drivers compile at the first dispatch: one sample of one pixel pays for it here.
-        self.trace(
-            Rect {
+        let first = Block {
+            rect: Rect {
                 x0: 0,
                 y0: 0,
                 x1: 1,
                 y1: 1,
             },
-            0,
-            1,
-        )
-        .map(drop)
+            first_sample: 0,
+            samples: 1,
+        };
+        let most = self.scene()?.allowance.samples;
+        self.trace_again(first, most, &mut Duration::default())?;
+        self.pace.forget();
+        Ok(())
     }
 
-    fn trace(&mut self, rect: Rect, first_sample: u64, samples: u32) -> Result<Vec<Tally>> {
+    fn start(&mut self, block: Block) -> Result<()> {
         let most = self.scene()?.allowance.samples;
-        self.trace_in_pieces(rect, first_sample, samples, most)
+        self.queue.blocks.push_back(block);
+        self.queue.waiting.extend(pieces(block, most));
+        self.launch_waiting()
+            .or_else(|error| self.throw_away(error))
+    }
+
+    fn finish(&mut self) -> Result<Traced> {
+        if self.fault.strikes() {
+            self.guard.destroy();
+        }
+        self.finish_oldest().or_else(|error| self.throw_away(error))
     }
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {

@@ -8,8 +8,9 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-/// No dispatch is planned to take over half a second; one that takes this long has hung.
-const TIMEOUT: Duration = Duration::from_secs(120);
+/// Waits are made of slices of this length, and each counts as one however long it lasted: a program that was
+/// stopped for an hour has not waited for the device that long.
+const SLICE: Duration = Duration::from_secs(1);
 
 /// A device whose every call is watched.
 #[derive(Debug)]
@@ -47,10 +48,7 @@ impl Guard {
     }
 
     fn lost_error(&self, what: &str) -> Error {
-        Error::DeviceLost(format!(
-            "the device {} was lost ({what}); the same command may succeed later, or choose another with --device",
-            self.name
-        ))
+        Error::DeviceLost(format!("the device {} was lost ({what})", self.name))
     }
 
     /// Runs a call that wgpu may panic in.
@@ -125,27 +123,36 @@ impl Guard {
     }
 
     /// Starts the work that the commands hold.
-    pub(super) fn submit(&self, commands: wgpu::CommandBuffer) -> Result<()> {
+    pub(super) fn submit(&self, commands: wgpu::CommandBuffer) -> Result<wgpu::SubmissionIndex> {
         self.caught("while submitting", || self.queue.submit([commands]))
-            .map(drop)
     }
 
-    /// Waits for all that was submitted.
-    fn wait(&self) -> Result<()> {
-        let poll = wgpu::PollType::Wait {
-            submission_index: None,
-            timeout: Some(TIMEOUT),
+    /// Makes the device unusable, as a driver that is reset does: for tests of what happens then.
+    pub(super) fn destroy(&self) {
+        self.device.destroy();
+    }
+
+    /// Waits until what was submitted is done, at most `patience`.
+    fn wait(&self, submission: &wgpu::SubmissionIndex, patience: Duration) -> Result<()> {
+        let slices = patience.as_secs_f64() / SLICE.as_secs_f64();
+        let poll = || wgpu::PollType::Wait {
+            submission_index: Some(submission.clone()),
+            timeout: Some(SLICE),
         };
-        match self.caught("while waiting", || self.device.poll(poll))? {
-            Ok(_) => {}
-            Err(_) => return Err(self.lost_error("it did not answer in time")),
+        for _ in 0..slices.ceil() as u64 {
+            match self.caught("while waiting", || self.device.poll(poll()))? {
+                Ok(_) => return self.trusted(),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(error) => return Err(self.lost_error(&error.to_string())),
+            }
         }
-        let uncaught = self
-            .uncaught
-            .lock()
-            .map(|slot| slot.clone())
-            .unwrap_or_default();
-        match uncaught {
+        Err(self.lost_error(&format!("no answer for {} s", patience.as_secs())))
+    }
+
+    /// Refuses a device on which something failed that no scope caught.
+    fn trusted(&self) -> Result<()> {
+        let uncaught = self.uncaught.lock();
+        match uncaught.map(|slot| slot.clone()).unwrap_or_default() {
             Some(text) => Err(Error::Internal(format!("on {}: {text}", self.name))),
             None => Ok(()),
         }
@@ -156,8 +163,14 @@ impl Guard {
         Duration::from_nanos(self.readback.load(Ordering::Relaxed))
     }
 
-    /// Reads a staging buffer that the device has written.
-    pub(super) fn read<T: Pod>(&self, staging: &wgpu::Buffer, bytes: u64) -> Result<Vec<T>> {
+    /// Waits for what was submitted, at most `patience`, and reads a staging buffer that it has written.
+    pub(super) fn read<T: Pod>(
+        &self,
+        staging: &wgpu::Buffer,
+        bytes: u64,
+        submission: &wgpu::SubmissionIndex,
+        patience: Duration,
+    ) -> Result<Vec<T>> {
         let mapped = Arc::new(AtomicBool::new(false));
         let flag = mapped.clone();
         self.caught("while mapping", || {
@@ -165,7 +178,7 @@ impl Guard {
                 flag.store(outcome.is_ok(), Ordering::SeqCst);
             });
         })?;
-        self.wait()?;
+        self.wait(submission, patience)?;
         if !mapped.load(Ordering::SeqCst) {
             return Err(self.lost_error("its memory could not be read"));
         }

@@ -5,9 +5,12 @@
 mod adapter;
 mod cache;
 mod device;
+mod fault;
+mod flight;
 mod guard;
 mod pieces;
 mod pipeline;
+mod trace;
 
 pub use adapter::{Adapters, adapters};
 pub use device::Gpu;

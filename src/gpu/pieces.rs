@@ -5,12 +5,15 @@
 //! whatever its paths do. In a tree they could visit every node, but never do: there each lane counts,
 //! and stops without a tally at its share of the iterations; what it left is traced again in smaller pieces.
 
-use crate::device::{DeviceInfo, DeviceKind, run_ranges};
+use crate::device::{Block, DeviceInfo, DeviceKind, run_ranges};
 use crate::knobs::LightStrategy;
 use crate::pack::{Packed, RUN_LENGTH, Rect, Tally, Traversal};
 
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
+/// Steps of a lane that are not too long for one dispatch, a fraction of a second each million: only where paths
+/// may be longer than a hundred thousand bounces does a run come in pieces.
+const LONG_LANE: u64 = 1 << 21;
 /// Lanes that a software driver runs in step, 32 bits each in its widest vectors: their loops go on
 /// until the last is done, so that together they may take no more than one may.
 const LANES: u64 = 8;
@@ -43,9 +46,10 @@ impl Allowance {
     /// None where a device cannot take a single step of the scene.
     pub fn new(device: &DeviceInfo, scene: &Packed) -> Option<Self> {
         if !stops_early(device) {
+            let samples = (LONG_LANE / (u64::from(scene.max_bounces) + 1)).max(1);
             return Some(Self {
                 steps: u32::MAX,
-                samples: 1 << 31,
+                samples: 1 << samples.ilog2(),
                 counted: scene.hierarchy.is_some(),
                 iterations: u32::MAX,
                 alone: u32::MAX,
@@ -110,13 +114,18 @@ fn iterations(scene: &Packed) -> u64 {
     2 + bodies + lamps * (1 + bodies)
 }
 
-/// First sample and number of samples of each piece of a range. Pieces end where the sample index
-/// is a multiple of `most`: they never depend on how the work was split before.
-pub fn pieces(first_sample: u64, samples: u32, most: u32) -> impl Iterator<Item = (u64, u32)> {
-    let (end, most) = (first_sample + u64::from(samples), u64::from(most));
+/// The pieces of a block, of at most `most` samples each. They end where the sample index is a multiple of
+/// `most`: they never depend on how the work was split before.
+pub fn pieces(block: Block, most: u32) -> impl Iterator<Item = Block> {
+    let (first_sample, most) = (block.first_sample, u64::from(most));
+    let end = first_sample + u64::from(block.samples);
     (first_sample / most..end.div_ceil(most)).map(move |piece| {
         let start = (piece * most).max(first_sample);
-        (start, (((piece + 1) * most).min(end) - start) as u32)
+        Block {
+            first_sample: start,
+            samples: (((piece + 1) * most).min(end) - start) as u32,
+            ..block
+        }
     })
 }
 
@@ -198,6 +207,20 @@ mod tests {
         }
     }
 
+    fn block(first_sample: u64, samples: u32) -> Block {
+        let rect = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 1,
+            y1: 1,
+        };
+        Block {
+            rect,
+            first_sample,
+            samples,
+        }
+    }
+
     #[test]
     fn only_old_software_drivers_stop_early() {
         let device = |kind, driver: &str| DeviceInfo {
@@ -221,11 +244,13 @@ mod tests {
     fn pieces_cover_a_range_and_end_at_fixed_places() {
         for (first, samples, most) in [(0, 64, 4), (5, 40, 8), (7, 1, 1), ((1 << 40) + 3, 99, 32)] {
             let mut next = first;
-            for (start, count) in pieces(first, samples, most) {
-                assert_eq!(start, next);
-                next += u64::from(count);
+            for piece in pieces(block(first, samples), most) {
+                assert_eq!(piece.first_sample, next);
+                next += u64::from(piece.samples);
                 let end = first + u64::from(samples);
-                assert!(count <= most && (next == end || next.is_multiple_of(u64::from(most))));
+                assert!(
+                    piece.samples <= most && (next == end || next.is_multiple_of(u64::from(most)))
+                );
             }
             assert_eq!(next, first + u64::from(samples));
         }
@@ -235,7 +260,8 @@ mod tests {
     fn pieces_add_up_to_runs() {
         let values: Vec<f32> = (0..24u8).map(|i| f32::from(i * 37 % 11)).collect();
         let mut gathered = Gathered::new(1);
-        for (start, count) in pieces(4, 24, 4) {
+        for piece in pieces(block(4, 24), 4) {
+            let (start, count) = (piece.first_sample, piece.samples);
             let from = start as usize - 4;
             gathered.add(start, count, &[tally(&values[from..from + count as usize])]);
         }

@@ -1,20 +1,35 @@
 //! The loop that feeds a device with blocks and adds up what comes back.
 
 mod choose;
+mod endure;
+mod feed;
+mod look;
+mod memory;
 mod picture;
 mod plan;
+mod rendering;
 
 pub use choose::{Chosen, VULKAN_HINT, devices, open, word};
-pub use picture::{picture, scene_hash};
-pub use plan::{Block, Plan};
+pub use endure::{Spares, endure};
+pub use memory::refuse_too_large;
+pub use picture::{picture, record, scene_hash};
+pub use plan::Plan;
+pub use rendering::Rendering;
 
-use crate::device::{Device, run_ranges};
-use crate::error::Result;
-use crate::film::Film;
-use crate::pack::{Feature, Packed, Rect, Traversal};
+use crate::device::Device;
+use crate::error::{Error, Result};
+use crate::film::Stop;
+use crate::pack::{Rect, Traversal};
 use crate::scene::Scene;
+use feed::{Fed, feed};
 use std::ops::{ControlFlow, Range};
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+/// How often somebody who watches a render is asked at least.
+const TICK: Duration = Duration::from_millis(100);
 
 /// What is to be rendered of a scene.
 #[derive(Clone, Debug)]
@@ -28,6 +43,9 @@ pub struct Task<'a> {
     pub features: bool,
     /// How rays find bodies.
     pub traversal: Traversal,
+    /// The error, relative to the mean, at which the render may stop before its last sample: see
+    /// [`crate::film::Film::relative_error`].
+    pub target_error: Option<f64>,
 }
 
 impl<'a> Task<'a> {
@@ -39,6 +57,7 @@ impl<'a> Task<'a> {
             samples: 0..scene.settings.render.samples,
             features: false,
             traversal: Traversal::of(scene),
+            target_error: None,
         }
     }
 
@@ -49,6 +68,30 @@ impl<'a> Task<'a> {
             traversal: Traversal::of_one_of_many(scene),
             ..Self::new(scene)
         }
+    }
+}
+
+impl Task<'_> {
+    /// Paths of all of it.
+    pub fn paths(&self) -> u64 {
+        let samples = self.samples.end - self.samples.start;
+        (self.region.area() as u64).saturating_mul(samples)
+    }
+
+    /// What is left of it where a film has some.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] for a film that this task cannot have left so.
+    fn rest(&self, rendering: &Rendering) -> Result<Plan> {
+        let film = &rendering.film;
+        let plan = (film.region == self.region)
+            .then(|| Plan::resume(self.region, self.samples.clone(), &film.counts));
+        let stray = || Error::Internal("the film is of another render".into());
+        let plan = plan.flatten().ok_or_else(stray)?;
+        Ok(match self.target_error {
+            Some(_) => plan.with_looks(),
+            None => plan,
+        })
     }
 }
 
@@ -63,97 +106,88 @@ pub fn whole(scene: &Scene) -> Rect {
     }
 }
 
-/// How far a render is.
-#[derive(Clone, Copy, Debug)]
-pub struct Progress {
-    /// Paths done and to do.
-    pub paths: u64,
-    pub total: u64,
-}
+/// Who watches a render: asked after each block and several times a second, and may stop it.
+pub type Watch<'a> = dyn FnMut(&Rendering) -> ControlFlow<Stop> + 'a;
 
-/// What a render gave.
-#[derive(Debug)]
-pub struct Rendering {
-    pub film: Film,
-    pub features: Option<Vec<Feature>>,
-    /// False where it was stopped before its last block.
-    pub complete: bool,
-    /// Getting the scene onto the device and compiling.
-    pub setup: Duration,
-    /// Tracing alone.
-    pub tracing: Duration,
-}
-
-/// Renders a task; `watch` is called between blocks and may stop it.
+/// Renders a task from its first sample on.
 ///
 /// # Errors
 /// Those of the device's calls; nothing is returned of a block that failed.
-pub fn render(
-    device: &mut dyn Device,
-    task: &Task,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Rendering> {
-    let plan = Plan::new(task.region, task.samples.clone());
-    render_plan(device, task, plan, watch)
+pub fn render(device: &mut dyn Device, task: &Task, watch: &mut Watch) -> Result<Rendering> {
+    let mut rendering = Rendering::new(task);
+    go_on(device, task, &mut rendering, watch)?;
+    Ok(rendering)
 }
 
-/// [`render`] by a plan of one's own.
+/// Renders what is left of a task, to its end or until it is stopped.
 ///
 /// # Errors
-/// As [`render`].
-pub fn render_plan(
+/// Those of the device's calls. The rendering then holds every block before the one that failed, and another
+/// device can go on with it.
+pub fn go_on(
     device: &mut dyn Device,
     task: &Task,
-    mut plan: Plan,
-    watch: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Rendering> {
-    let started = Instant::now();
-    device.load(&Packed::by(task.scene, task.traversal))?;
-    let features = task
-        .features
-        .then(|| device.features(task.region))
-        .transpose()?;
-    let setup = started.elapsed();
-    let mut film = Film::new(task.region);
-    let mut tracing = Duration::ZERO;
-    // All samples there can be of two pixels are more than u64 counts.
-    let total = (task.region.area() as u64).saturating_mul(task.samples.end - task.samples.start);
-    let mut paths = 0;
-    let mut complete = true;
-    while let Some(block) = plan.next_block() {
-        let began = Instant::now();
-        let tallies = device.trace(block.rect, block.first_sample, block.samples)?;
-        let took = began.elapsed();
-        tracing += took;
-        plan.learn(&block, took);
-        add_block(&mut film, &block, &tallies);
-        paths += block.paths();
-        if watch(Progress { paths, total }).is_break() {
-            complete = paths == total;
-            break;
-        }
-    }
-    Ok(Rendering {
-        film,
-        features,
-        complete,
-        setup,
-        tracing,
+    rendering: &mut Rendering,
+    watch: &mut Watch,
+) -> Result<()> {
+    let plan = task.rest(rendering)?;
+    go_on_by(device, task, plan, rendering, watch)
+}
+
+/// [`go_on`] by a plan of one's own.
+///
+/// The device is fed by a thread of its own, which makes all calls to it; blocks are added up here meanwhile.
+///
+/// # Errors
+/// As [`go_on`].
+pub fn go_on_by(
+    device: &mut dyn Device,
+    task: &Task,
+    plan: Plan,
+    rendering: &mut Rendering,
+    watch: &mut Watch,
+) -> Result<()> {
+    rendering.begin(device.info());
+    let enough = AtomicBool::new(false);
+    thread::scope(|scope| {
+        let (send, receive) = sync_channel(1);
+        let wants_features = task.features && rendering.features.is_none();
+        let feeder = scope.spawn({
+            let enough = &enough;
+            move || feed(device, task, wants_features, plan, send, enough)
+        });
+        let stopped = gather(task, rendering, watch, receive);
+        enough.store(true, Ordering::SeqCst);
+        let fed = feeder
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        // Who was told to stop need not have come to a good end.
+        if stopped { Ok(()) } else { fed }
     })
 }
 
-/// Adds a block's tallies to the film, run by run.
-fn add_block(film: &mut Film, block: &Block, tallies: &[crate::pack::Tally]) {
-    let (rect, region) = (block.rect, film.region);
-    let mut tallies = tallies.iter();
-    for (first, samples) in run_ranges(block.first_sample, block.samples) {
-        for y in rect.y0..rect.y1 {
-            let row = (y - region.y0) as usize * region.width() as usize;
-            for x in rect.x0..rect.x1 {
-                if let Some(tally) = tallies.next() {
-                    film.add(row + (x - region.x0) as usize, first, samples, tally);
-                }
-            }
+/// Adds up what the device made, until there is no more or somebody says stop; whether somebody did.
+fn gather(
+    task: &Task,
+    rendering: &mut Rendering,
+    watch: &mut Watch,
+    receive: Receiver<Fed>,
+) -> bool {
+    loop {
+        let looks = match receive.recv_timeout(TICK) {
+            Ok(fed) => rendering.add(fed),
+            Err(RecvTimeoutError::Timeout) => false,
+            Err(RecvTimeoutError::Disconnected) => return false,
+        };
+        let good = || looks && rendering.reached(task);
+        let flow = if good() {
+            ControlFlow::Break(Stop::TargetError)
+        } else {
+            watch(rendering)
+        };
+        if let ControlFlow::Break(stop) = flow {
+            rendering.stopped = (!rendering.complete()).then_some(stop);
+            return true;
         }
     }
 }

@@ -22,8 +22,10 @@ pub fn picture(task: &Task, device: &DeviceInfo, rendering: &Rendering, aovs: &[
         .picture(record(task, device, rendering), features, Some(text))
 }
 
-fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record {
+/// The record of a rendering as it stands, but for what its film knows.
+pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record {
     let (scene, settings) = (task.scene, &task.scene.settings);
+    let several = rendering.devices.len() > 1;
     let crop = (task.region != whole(scene)).then_some(task.region);
     Record {
         version: env!("CARGO_PKG_VERSION").into(),
@@ -34,7 +36,11 @@ fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record {
         knobs: scene.knobs.clone(),
         kernel: device.traversal(task.traversal).to_string(),
         device: device.clone(),
-        devices: Vec::new(),
+        devices: if several {
+            rendering.devices.clone()
+        } else {
+            Vec::new()
+        },
         width: task.region.width(),
         height: task.region.height(),
         crop: crop.map(|rect| [rect.x0, rect.y0, rect.x1, rect.y1]),
@@ -42,12 +48,14 @@ fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record {
         sample_range: taken(task.samples.start, &rendering.film),
         sample_ranges: Vec::new(),
         seed: settings.render.seed,
-        complete: rendering.complete,
+        complete: rendering.complete(),
+        stopped: rendering.stopped,
         biased: settings.biased(),
         seconds: Seconds {
             setup: rendering.setup.as_secs_f64(),
             render: rendering.tracing.as_secs_f64(),
             total: (rendering.setup + rendering.tracing).as_secs_f64(),
+            longest_block: rendering.longest.as_secs_f64(),
         },
         paths: 0,
         rays: 0,

@@ -1,6 +1,8 @@
 //! Which samples of which pixels each dispatch takes. The picture never depends on it: a pixel's
 //! samples are added in order, in runs that end at fixed indices.
 
+use super::look;
+use crate::device::Block;
 use crate::pack::{RUN_LENGTH, Rect};
 use std::ops::Range;
 use std::time::Duration;
@@ -12,28 +14,31 @@ const TARGET: Duration = Duration::from_millis(150);
 /// second.
 const FIRST_BUDGET: u64 = 64;
 /// From one dispatch to the next the plan grows at most by this factor: pixels differ in cost.
-const GROWTH: u64 = 8;
+const GROWTH: u64 = 16;
+/// How long a dispatch should take in the first band, where some pixels' cost is not known yet: those of a ball
+/// of mirrors may be ten times that of the sky over it.
+const FIRST_TARGET: Duration = Duration::from_millis(50);
+/// A block that takes less says more of the host than of its pixels.
+const TELLING: Duration = Duration::from_millis(20);
+/// The slowest pixels so far set the pace; how much of that is left after each block, in case something else
+/// held the machine up.
+const MEMORY: f64 = 0.9;
 /// Samples of a pixel that one dispatch takes where there is enough to do beside: long lanes keep
 /// the device full.
 const LONG: u64 = 64;
+/// Samples of a pixel that any dispatch takes.
+const MOST_BAND: u64 = 64 * LONG;
 /// Pixels that keep every lane of a small device busy.
 const WIDE: u64 = 4096;
 /// The most tallies that a dispatch brings back: 32 MiB of them.
 const MOST_TALLIES: u64 = 1 << 20;
 
-/// One dispatch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Block {
-    pub rect: Rect,
-    pub first_sample: u64,
-    pub samples: u32,
-}
-
-impl Block {
-    /// Number of paths.
-    pub fn paths(&self) -> u64 {
-        self.rect.area() as u64 * u64::from(self.samples)
-    }
+/// The most tallies that a block of a task can bring back.
+pub(super) fn most_tallies(region: Rect, samples: &Range<u64>) -> u64 {
+    let runs = (samples.end - samples.start) / u64::from(RUN_LENGTH) + 2;
+    (region.area() as u64)
+        .saturating_mul(runs)
+        .min(MOST_TALLIES)
 }
 
 /// Hands out blocks until every pixel of a region has every sample of a range.
@@ -49,8 +54,12 @@ pub struct Plan {
     next_pixel: u64,
     /// Samples that the next block may take.
     budget: u64,
+    /// Seconds a path of the slowest blocks, forgetting.
+    slowest: f64,
     /// Blocks of exactly this many samples, whatever time they take.
     fixed: bool,
+    /// Whether bands end where somebody looks at the error.
+    looks: bool,
 }
 
 impl Plan {
@@ -62,7 +71,44 @@ impl Plan {
             band,
             next_pixel: 0,
             budget: FIRST_BUDGET,
+            slowest: 0.0,
             fixed: false,
+            looks: false,
+        }
+    }
+
+    /// What is left where some samples have been taken: `counts` are those of each pixel, row by row. None
+    /// where no plan can have left them so.
+    pub fn resume(region: Rect, samples: Range<u64>, counts: &[u64]) -> Option<Self> {
+        let (low, high) = (*counts.iter().min()?, *counts.iter().max()?);
+        let done = counts.iter().take_while(|count| **count == high).count();
+        let in_order = counts[done..].iter().all(|count| *count == low);
+        let [start, end] = [low, high].map(|count| samples.start.checked_add(count));
+        let (start, end) = (start?, end?);
+        let whole = |index: u64| {
+            index == samples.start
+                || index == samples.end
+                || index.is_multiple_of(u64::from(RUN_LENGTH))
+        };
+        let fits = counts.len() == region.area() && end <= samples.end && end - start <= MOST_BAND;
+        if !(in_order && fits && whole(start) && whole(end)) {
+            return None;
+        }
+        let next_pixel = if low == high { 0 } else { done as u64 };
+        // Where all have the same, the band in hand is done.
+        let band = if low == high { end..end } else { start..end };
+        Some(Self {
+            band,
+            next_pixel,
+            ..Self::new(region, samples)
+        })
+    }
+
+    /// The plan with bands that end wherever [`look::next`] says.
+    pub fn with_looks(self) -> Self {
+        Self {
+            looks: true,
+            ..self
         }
     }
 
@@ -81,9 +127,14 @@ impl Plan {
         if self.fixed {
             return;
         }
-        let rate = block.paths() as f64 / took.as_secs_f64().max(1e-6);
-        let wanted = (rate * TARGET.as_secs_f64()) as u64;
-        self.budget = wanted.clamp(1, block.paths().saturating_mul(GROWTH)).max(1);
+        let pace = took.as_secs_f64().max(1e-6) / block.paths() as f64;
+        if took >= TELLING {
+            self.slowest = pace.max(self.slowest * MEMORY);
+        }
+        let is_first = block.first_sample == self.samples.start;
+        let target = if is_first { FIRST_TARGET } else { TARGET };
+        let wanted = (target.as_secs_f64() / pace.max(self.slowest)) as u64;
+        self.budget = wanted.clamp(1, block.paths().saturating_mul(GROWTH));
     }
 
     /// The next block, or nothing when all is done.
@@ -117,8 +168,13 @@ impl Plan {
         let pixels = (self.region.area() as u64).min(WIDE);
         let affordable = self.budget / pixels;
         let whole = self.budget / self.region.area() as u64;
-        let wanted = affordable.min(LONG).max(whole).clamp(run, 64 * LONG);
-        let end = (start / run + wanted / run) * run;
+        let wanted = affordable.min(LONG).max(whole).clamp(run, MOST_BAND);
+        let mut end = (start / run)
+            .saturating_add(wanted / run)
+            .saturating_mul(run);
+        if self.looks {
+            end = end.min(look::next(&self.samples, start));
+        }
         self.band = start..end.min(self.samples.end);
         Some(())
     }
@@ -213,6 +269,84 @@ mod tests {
         }
     }
 
+    /// Wherever a render stops, the rest of it takes every other sample once.
+    #[test]
+    fn a_plan_goes_on_where_another_stopped() {
+        let region = Rect {
+            x0: 3,
+            y0: 5,
+            x1: 14,
+            y1: 12,
+        };
+        for samples in [0..1, 7..100, 0..64] {
+            for blocks in 0.. {
+                let mut plan = Plan::with_budget(region, samples.clone(), 500);
+                let mut counts = vec![0; region.area()];
+                let taken = (0..blocks)
+                    .map_while(|_| plan.next_block())
+                    .collect::<Vec<_>>();
+                for block in &taken {
+                    for y in block.rect.y0..block.rect.y1 {
+                        for x in block.rect.x0..block.rect.x1 {
+                            let place = (y - region.y0) * region.width() + (x - region.x0);
+                            counts[place as usize] += u64::from(block.samples);
+                        }
+                    }
+                }
+                let mut rest = Plan::resume(region, samples.clone(), &counts).unwrap();
+                let paths: u64 = std::iter::from_fn(|| rest.next_block())
+                    .map(|block| block.paths())
+                    .sum();
+                let all = region.area() as u64 * (samples.end - samples.start);
+                assert_eq!(paths + counts.iter().sum::<u64>(), all);
+                let mut next = Plan::resume(region, samples.clone(), &counts).unwrap();
+                if let Some(block) = next.next_block() {
+                    let corner =
+                        (block.rect.y0 - region.y0) * region.width() + block.rect.x0 - region.x0;
+                    assert_eq!(samples.start + counts[corner as usize], block.first_sample);
+                }
+                if taken.len() < blocks {
+                    break;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_no_plan_leaves_is_refused() {
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 2,
+            y1: 2,
+        };
+        let resume = |counts: &[u64]| Plan::resume(region, 0..64, counts);
+        assert!(resume(&[32, 16, 16, 16]).is_some());
+        assert!(resume(&[16, 32, 16, 16]).is_none(), "out of order");
+        assert!(resume(&[48, 32, 16, 16]).is_none(), "three counts");
+        assert!(resume(&[16, 16, 16]).is_none(), "another size");
+        assert!(resume(&[80, 80, 80, 80]).is_none(), "too many");
+        assert!(resume(&[17, 17, 17, 17]).is_none(), "a broken run");
+        assert!(resume(&[u64::MAX, 0, 0, 0]).is_none(), "beyond all numbers");
+        assert!(resume(&[64; 4]).is_some_and(|mut plan| plan.next_block().is_none()));
+    }
+
+    #[test]
+    fn bands_end_where_somebody_looks() {
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 8,
+            y1: 8,
+        };
+        let mut plan = Plan::with_budget(region, 5..1000, 1 << 20).with_looks();
+        let ends: Vec<u64> = std::iter::from_fn(|| plan.next_block())
+            .map(|block| block.first_sample + u64::from(block.samples))
+            .collect();
+        assert_eq!(ends[..3], [80, 96, 112]);
+        assert_eq!(ends.last(), Some(&1000));
+    }
+
     #[test]
     fn blocks_stay_near_the_target_once_the_rate_is_known() {
         let region = Rect {
@@ -229,5 +363,48 @@ mod tests {
             plan.learn(&block, took);
         }
         assert!(longest <= TARGET + TARGET / 10, "{longest:?}");
+    }
+
+    /// A picture whose lower half is nine times as slow as the sky, with two blocks on their way.
+    #[test]
+    fn no_block_is_long_where_pixels_differ() {
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 640,
+            y1: 480,
+        };
+        let cost = |y: u32| if y < 240 { 100 } else { 900 };
+        let took = |block: &Block| {
+            let row = u64::from(block.rect.width()) * u64::from(block.samples);
+            let rows = block.rect.y0..block.rect.y1;
+            Duration::from_nanos(rows.map(|y| row * cost(y)).sum())
+        };
+        let mut plan = Plan::new(region, 0..4096);
+        let mut started = std::collections::VecDeque::new();
+        let (mut first, mut later) = (Duration::ZERO, Vec::new());
+        while let Some(block) = plan.next_block() {
+            started.push_back(block);
+            if started.len() < 2 {
+                continue;
+            }
+            let done = started.pop_front().unwrap();
+            let time = took(&done);
+            if done.first_sample == 0 {
+                first = first.max(time);
+            } else {
+                later.push(time);
+            }
+            plan.learn(&done, time);
+        }
+        assert!(first <= Duration::from_millis(500), "{first:?}");
+        // Many fast blocks forget the slow ones: the picture comes round again before they quite have.
+        let longest = later.iter().max().unwrap();
+        assert!(*longest <= Duration::from_millis(500), "{longest:?}");
+        let mean = later.iter().sum::<Duration>() / later.len() as u32;
+        assert!(
+            mean >= TARGET / 5,
+            "dispatches are long enough to be worth it: {mean:?}"
+        );
     }
 }

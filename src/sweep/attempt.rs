@@ -5,7 +5,7 @@ use super::run::Open;
 use super::summary::Rules;
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::Picture;
+use crate::film::{Picture, Stop};
 use crate::render::{self, Task};
 use crate::scene::Scene;
 use std::ops::ControlFlow;
@@ -54,18 +54,21 @@ pub(super) fn persist(
 fn attempt(scene: &Scene, device: &mut dyn Device, rules: Rules, hear: &mut Hear) -> Attempt {
     let started = Instant::now();
     let task = Task::one_of_many(scene);
+    if let Err(error) = render::refuse_too_large(&task) {
+        return Attempt::Bad(Status::Failed, error.to_string());
+    }
     let (mut stopped, mut late) = (false, false);
-    let rendering = render::render(device, &task, &mut |progress| {
+    let rendering = render::render(device, &task, &mut |rendering| {
         late = rules.timeout.is_some_and(|limit| started.elapsed() > limit);
-        stopped = hear(progress.paths).is_break();
+        stopped = hear(rendering.film.paths).is_break();
         if late || stopped {
-            ControlFlow::Break(())
+            ControlFlow::Break(if late { Stop::Time } else { Stop::Signal })
         } else {
             ControlFlow::Continue(())
         }
     });
     match rendering {
-        Ok(rendering) if rendering.complete => {
+        Ok(rendering) if rendering.complete() => {
             let mut picture = render::picture(&task, device.info(), &rendering, &[]);
             picture.record.seconds.total = started.elapsed().as_secs_f64();
             Attempt::Ok(Box::new(picture))
@@ -75,7 +78,7 @@ fn attempt(scene: &Scene, device: &mut dyn Device, rules: Rules, hear: &mut Hear
             let seconds = rules.timeout.unwrap_or_default().as_secs_f64();
             Attempt::Bad(Status::Timeout, format!("not done after {seconds} s"))
         }
-        Err(error @ Error::DeviceLost(_)) => Attempt::Bad(Status::DeviceLost, error.to_string()),
+        Err(Error::DeviceLost(reason)) => Attempt::Bad(Status::DeviceLost, reason),
         Err(error) => Attempt::Bad(Status::Failed, error.to_string()),
     }
 }

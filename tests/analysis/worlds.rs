@@ -234,6 +234,7 @@ fn record(samples: u64, seed: u64) -> Record {
         sample_ranges: Vec::new(),
         seed,
         complete: true,
+        stopped: None,
         biased: false,
         seconds: Seconds::default(),
         paths: 0,

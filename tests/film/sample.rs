@@ -154,11 +154,13 @@ pub fn record(samples: std::ops::Range<u64>) -> Record {
         sample_ranges: Vec::new(),
         seed: u64::MAX - 1,
         complete: true,
+        stopped: None,
         biased: false,
         seconds: Seconds {
             setup: 0.25,
             render: 1.0 / 3.0,
             total: 0.7,
+            longest_block: 0.01,
         },
         paths: 0,
         rays: 0,

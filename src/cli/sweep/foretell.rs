@@ -4,6 +4,7 @@ use super::super::{Output, print};
 use super::words::spelled;
 use crate::device::Device;
 use crate::error::{Result, counted};
+use crate::film::Stop;
 use crate::pack::Rect;
 use crate::render::{self, Task};
 use crate::scene::Scene;
@@ -75,7 +76,7 @@ fn time_a_path(scene: &Scene, device: &mut dyn Device) -> Result<f64> {
         let started = Instant::now();
         let rendering =
             render::render(device, &task, &mut |_| match started.elapsed() > LONGEST {
-                true => ControlFlow::Break(()),
+                true => ControlFlow::Break(Stop::Time),
                 false => ControlFlow::Continue(()),
             })?;
         let paths: u64 = rendering.film.counts.iter().sum();

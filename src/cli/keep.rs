@@ -1,0 +1,158 @@
+//! Checkpoints of a render: when they are written, and what a render goes on from.
+
+use super::note;
+use crate::error::{Error, Result};
+use crate::film::{Checkpoint, Record, previous};
+use crate::place::Place;
+use crate::render::{self, Rendering, Task};
+use clap::Args;
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Saving a render on its way.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct KeepOptions {
+    /// Save the raw sums to FILE now and then and when the render stops; it goes when the render is done
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// How often
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value = "60",
+        requires = "checkpoint",
+        value_parser = super::options::seconds
+    )]
+    checkpoint_every: Duration,
+    /// Go on from the checkpoint: the picture is that of a render that never stopped, byte for byte. Without one
+    /// there begin anew
+    #[arg(long, requires = "checkpoint")]
+    resume: bool,
+}
+
+/// Writes the checkpoints of one render.
+pub(crate) struct Keeper {
+    path: PathBuf,
+    every: Duration,
+    samples: [u64; 2],
+    last: Instant,
+    /// Paths that the last checkpoint holds.
+    kept: u64,
+}
+
+impl KeepOptions {
+    /// The keeper of a task's checkpoints, where they are wanted, and what there is to go on from. `wanted` is
+    /// the record of the task with nothing done.
+    ///
+    /// # Errors
+    /// [`Error::Create`] where a checkpoint cannot be written or one would be lost, [`Error::Data`] for a
+    /// damaged one or one of another render.
+    pub(crate) fn keeper(
+        &self,
+        task: &Task,
+        wanted: &Record,
+    ) -> Result<Option<(Keeper, Rendering)>> {
+        let Some(path) = &self.checkpoint else {
+            return Ok(None);
+        };
+        let keeper = Keeper {
+            path: path.clone(),
+            every: self.checkpoint_every,
+            samples: [task.samples.start, task.samples.end],
+            last: Instant::now(),
+            kept: 0,
+        };
+        let found = if self.resume {
+            Checkpoint::newest(path)?
+        } else {
+            keeper.refuse_to_lose()?;
+            None
+        };
+        keeper.refuse_stream()?;
+        let Some((checkpoint, remark)) = found else {
+            if self.resume {
+                note(&format!(
+                    "lampray: no checkpoint at {}: beginning anew",
+                    path.display()
+                ));
+            }
+            return Ok(Some((keeper, Rendering::new(task))));
+        };
+        if let Some(remark) = remark {
+            note(&format!("lampray: {remark}"));
+        }
+        checkpoint.refuse_other(path, wanted, keeper.samples)?;
+        let rendering = Rendering::of_checkpoint(task, checkpoint).ok_or_else(|| Error::Data {
+            path: path.clone(),
+            reason: "the checkpoint holds no sums of this render".into(),
+        })?;
+        Ok(Some((keeper, rendering)))
+    }
+}
+
+impl Keeper {
+    /// A checkpoint may hold hours: only who says --resume or removes it does without.
+    fn refuse_to_lose(&self) -> Result<()> {
+        for path in [self.path.clone(), previous(&self.path)] {
+            if path.exists() {
+                let source = io::Error::other(
+                    "a file is there; add --resume to go on from it, or remove it",
+                );
+                return Err(Error::Create { path, source });
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds out before anything is rendered whether a checkpoint can be written.
+    fn refuse_stream(&self) -> Result<()> {
+        match Place::prepare(&self.path)?.is_stream() {
+            false => Ok(()),
+            true => Err(Error::Usage(format!(
+                "--checkpoint {}: a checkpoint must be a file",
+                self.path.display()
+            ))),
+        }
+    }
+
+    /// Saves where it is time to. A checkpoint that cannot be written is said and no more: the render goes on.
+    pub(crate) fn save_if_due(&mut self, task: &Task, rendering: &Rendering) {
+        if self.last.elapsed() < self.every {
+            return;
+        }
+        if let Err(error) = self.save(task, rendering) {
+            note(&format!("lampray: warning: {error}; the render goes on"));
+        }
+    }
+
+    /// Saves what is done, if any of it is new.
+    pub(crate) fn save(&mut self, task: &Task, rendering: &Rendering) -> Result<()> {
+        self.last = Instant::now();
+        let Some(device) = rendering.devices.first() else {
+            return Ok(());
+        };
+        if rendering.film.paths == self.kept {
+            return Ok(());
+        }
+        let mut record = render::record(task, device, rendering);
+        record.devices = rendering.devices.clone();
+        rendering.film.describe(&mut record);
+        Checkpoint::save(&self.path, &record, self.samples, &rendering.film)?;
+        self.kept = rendering.film.paths;
+        Ok(())
+    }
+
+    /// The render is done and its pictures are written: nobody needs the checkpoints any more.
+    pub(crate) fn remove(&self) {
+        for path in [self.path.clone(), previous(&self.path)] {
+            // One that cannot be removed is whole, and going on from it gives the same picture.
+            let _ = fs::remove_file(path);
+        }
+    }
+
+    pub(crate) fn path(&self) -> &PathBuf {
+        &self.path
+    }
+}

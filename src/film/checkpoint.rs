@@ -1,0 +1,317 @@
+//! A render on its way as a file: the raw sums, so that going on gives the bits of a render that was never
+//! stopped.
+//!
+//! ```text
+//! magic (8 bytes) | length of the head, u64 | head, JSON | sums, squares: 3 x f64 a pixel | counts: u64 a pixel | BLAKE3 (32 bytes)
+//! ```
+//!
+//! Numbers are little-endian; the hash is over everything before it.
+
+use super::bytes::data;
+use super::moments::{Film, NonFinite};
+use super::record::Record;
+use super::same::difference;
+use crate::error::{Error, Result};
+use crate::knobs::short;
+use crate::pack::Rect;
+use crate::place::Place;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// The last character is the format's version.
+const MAGIC: [u8; 8] = *b"lampray1";
+/// The largest head, in bytes.
+const HEAD_LIMIT: u64 = 16 << 20;
+/// Of a pixel: two sums of three channels and a count.
+const PIXEL: u64 = 56;
+const HASH: u64 = 32;
+/// Numbers that are read or written at a time.
+const CHUNK: usize = 1 << 13;
+
+/// A render on its way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// What the render was when this was saved.
+    pub record: Record,
+    /// The samples of each pixel that were asked for: from the first on, up to and without the second.
+    pub samples: [u64; 2],
+    pub film: Film,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Head {
+    record: Record,
+    samples: [u64; 2],
+    region: [u32; 4],
+    /// Sample, row and column.
+    first_non_finite: Option<(u64, u32, u32)>,
+}
+
+/// Where the checkpoint before the last is kept.
+pub fn previous(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".previous");
+    name.into()
+}
+
+impl Checkpoint {
+    /// Writes the checkpoint; the one that was there stays as [`previous`].
+    ///
+    /// # Errors
+    /// [`Error::Create`] or [`Error::Write`]; what was there before is then still there.
+    pub fn save(path: &Path, record: &Record, samples: [u64; 2], film: &Film) -> Result<()> {
+        let rect = film.region;
+        let head = Head {
+            record: record.clone(),
+            samples,
+            region: [rect.x0, rect.y0, rect.x1, rect.y1],
+            first_non_finite: film
+                .first_non_finite
+                .map(|first| (first.sample, first.y, first.x)),
+        };
+        let head = serde_json::to_vec(&head).map_err(|fault| Error::Internal(fault.to_string()))?;
+        Place::prepare(path)?.write_keeping(&previous(path), |sink| {
+            let mut sink = Hashing::new(sink);
+            sink.write_all(&MAGIC)?;
+            sink.write_all(&(head.len() as u64).to_le_bytes())?;
+            sink.write_all(&head)?;
+            for plane in [&film.sums, &film.squares] {
+                put(&mut sink, plane.as_flattened(), |value| value.to_le_bytes())?;
+            }
+            put(&mut sink, &film.counts, |count| count.to_le_bytes())?;
+            let hash = sink.hasher.finalize();
+            sink.inner.write_all(hash.as_bytes())
+        })
+    }
+
+    /// Reads a checkpoint.
+    ///
+    /// # Errors
+    /// [`Error::Input`]; [`Error::Data`] for what is none, is cut short or has a bit that is not as it was.
+    pub fn read(path: &Path) -> Result<Self> {
+        let input = |source| Error::Input {
+            path: path.into(),
+            source,
+        };
+        let file = File::open(path).map_err(input)?;
+        let length = file.metadata().map_err(input)?.len();
+        let mut reader = Hashing::new(BufReader::with_capacity(1 << 16, file));
+        Self::read_from(&mut reader, length)
+            .map_err(input)?
+            .map_err(|reason| data(path, reason))
+    }
+
+    /// The outer error is the disk's, the inner one the content's.
+    fn read_from(
+        reader: &mut Hashing<impl Read>,
+        length: u64,
+    ) -> io::Result<std::result::Result<Self, String>> {
+        let no_checkpoint = || Ok(Err("not a checkpoint of this version of lampray".into()));
+        let cut = || Ok(Err("the checkpoint is damaged: it is cut short".into()));
+        let fixed = MAGIC.len() as u64 + 8 + HASH;
+        if length < fixed {
+            return no_checkpoint();
+        }
+        if take::<8>(reader)? != MAGIC {
+            return no_checkpoint();
+        }
+        let head_length = u64::from_le_bytes(take(reader)?);
+        if head_length > HEAD_LIMIT || head_length > length - fixed {
+            return cut();
+        }
+        let mut bytes = vec![0; head_length as usize];
+        reader.read_exact(&mut bytes)?;
+        let Ok(head) = serde_json::from_slice::<Head>(&bytes) else {
+            return Ok(Err(
+                "the checkpoint is damaged: its head cannot be read".into()
+            ));
+        };
+        let [x0, y0, x1, y1] = head.region;
+        if x0 >= x1 || y0 >= y1 {
+            return Ok(Err("the checkpoint is damaged: it is of no pixels".into()));
+        }
+        let sides = [x1 - x0, y1 - y0].map(u64::from);
+        // Nothing is allocated that the file does not have.
+        let announced = sides[0].saturating_mul(sides[1]).saturating_mul(PIXEL);
+        if announced != length - fixed - head_length {
+            return cut();
+        }
+        let mut film = Film::new(Rect { x0, y0, x1, y1 });
+        for plane in [&mut film.sums, &mut film.squares] {
+            get(reader, plane.as_flattened_mut(), f64::from_le_bytes)?;
+        }
+        get(reader, &mut film.counts, u64::from_le_bytes)?;
+        let hash = reader.hasher.finalize();
+        if take::<32>(reader)? != *hash.as_bytes() {
+            return Ok(Err(
+                "the checkpoint is damaged: its checksum is another".into()
+            ));
+        }
+        Ok(Self::of(head, film))
+    }
+
+    /// What a whole file says, if it can be.
+    fn of(head: Head, mut film: Film) -> std::result::Result<Self, String> {
+        let add = |sum: u64, count: &u64| sum.checked_add(*count);
+        let paths = film.counts.iter().try_fold(0, add);
+        let planes = [&film.sums, &film.squares];
+        let finite =
+            |plane: &&Vec<[f64; 3]>| plane.as_flattened().iter().all(|sum| sum.is_finite());
+        film.paths = match paths {
+            Some(paths) if paths == head.record.paths && planes.iter().all(finite) => paths,
+            _ => return Err("the checkpoint holds no sums of a render".into()),
+        };
+        film.rays = head.record.rays;
+        film.non_finite = head.record.non_finite;
+        film.first_non_finite =
+            head.first_non_finite
+                .map(|(sample, y, x)| NonFinite { sample, y, x });
+        Ok(Self {
+            record: head.record,
+            samples: head.samples,
+            film,
+        })
+    }
+
+    /// The last whole checkpoint: that at `path`, or where it is damaged or missing the one before, with a
+    /// remark. None where there is neither.
+    ///
+    /// # Errors
+    /// Those of reading the one at `path`, where the one before is no better.
+    pub fn newest(path: &Path) -> Result<Option<(Self, Option<String>)>> {
+        let missing = |error: &Error| matches!(error, Error::Input { source, .. } if source.kind() == io::ErrorKind::NotFound);
+        let fault = match Self::read(path) {
+            Ok(checkpoint) => return Ok(Some((checkpoint, None))),
+            Err(fault) => fault,
+        };
+        let before = previous(path);
+        match Self::read(&before) {
+            Ok(checkpoint) => {
+                let remark = format!("{fault}; going on from {}", before.display());
+                Ok(Some((checkpoint, Some(remark))))
+            }
+            Err(error) if missing(&fault) && missing(&error) => Ok(None),
+            // What the one before is like matters only where it is all there is.
+            Err(error) if missing(&fault) => Err(error),
+            Err(_) => Err(fault),
+        }
+    }
+
+    /// Refuses to go on with another render than `wanted`, which has the `samples`.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the name of what is another.
+    pub fn refuse_other(&self, path: &Path, wanted: &Record, samples: [u64; 2]) -> Result<()> {
+        let other = |what: &str, here: &str, there: &str| {
+            let [what, here, there] = [what, here, there].map(short);
+            Err(data(
+                path,
+                format!(
+                    "{what} is {there} in the checkpoint, and {here} now: it is of another render; go on with the same command, or leave out --resume and give --checkpoint another name"
+                ),
+            ))
+        };
+        let versions = [&wanted.version, &self.record.version];
+        if versions[0] != versions[1] {
+            return other("lampray's version", versions[0], versions[1]);
+        }
+        if let Some(found) = difference(wanted, &self.record, None) {
+            return other(&found.what, &found.one, &found.other);
+        }
+        if wanted.kernel != self.record.kernel {
+            return other("the kernel", &wanted.kernel, &self.record.kernel);
+        }
+        if samples != self.samples {
+            let shown = |[from, to]: [u64; 2]| format!("{from}..{to}");
+            return other(
+                "the range of samples",
+                &shown(samples),
+                &shown(self.samples),
+            );
+        }
+        let took_part = self.record.all_devices();
+        if !took_part
+            .iter()
+            .any(|device| device.is_like(&wanted.device))
+        {
+            let shown =
+                |record: &Record| format!("{} ({})", record.device.name, record.device.driver);
+            return other("the device", &shown(wanted), &shown(&self.record));
+        }
+        Ok(())
+    }
+}
+
+/// Bytes on their way through a hash.
+struct Hashing<T> {
+    inner: T,
+    hasher: blake3::Hasher,
+}
+
+impl<T> Hashing<T> {
+    fn new(inner: T) -> Self {
+        Self {
+            inner,
+            hasher: blake3::Hasher::new(),
+        }
+    }
+}
+
+impl<T: Write> Write for Hashing<T> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.inner.write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+impl<T: Read> Read for Hashing<T> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.inner.read(bytes)?;
+        self.hasher.update(&bytes[..read]);
+        Ok(read)
+    }
+}
+
+fn take<const N: usize>(reader: &mut impl Read) -> io::Result<[u8; N]> {
+    let mut bytes = [0; N];
+    reader.read_exact(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn put<T: Copy>(
+    sink: &mut impl Write,
+    values: &[T],
+    bytes: impl Fn(T) -> [u8; 8],
+) -> io::Result<()> {
+    let mut buffer = Vec::with_capacity(8 * CHUNK);
+    for chunk in values.chunks(CHUNK) {
+        buffer.clear();
+        buffer.extend(chunk.iter().flat_map(|value| bytes(*value)));
+        sink.write_all(&buffer)?;
+    }
+    Ok(())
+}
+
+fn get<T>(
+    reader: &mut impl Read,
+    values: &mut [T],
+    value: impl Fn([u8; 8]) -> T,
+) -> io::Result<()> {
+    let mut buffer = vec![0; 8 * CHUNK];
+    for chunk in values.chunks_mut(CHUNK) {
+        let bytes = &mut buffer[..8 * chunk.len()];
+        reader.read_exact(bytes)?;
+        let (numbers, _) = bytes.as_chunks::<8>();
+        for (place, number) in chunk.iter_mut().zip(numbers) {
+            *place = value(*number);
+        }
+    }
+    Ok(())
+}

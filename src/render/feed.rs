@@ -1,0 +1,73 @@
+//! The thread that a device lives on while it renders: it alone calls the device, and keeps it busy.
+
+use super::{Plan, Task};
+use crate::device::{Block, Device, IN_FLIGHT, Traced};
+use crate::error::Result;
+use crate::pack::{Feature, Packed, Rect};
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::SyncSender;
+use std::time::{Duration, Instant};
+
+/// First hits that one call asks for.
+const MOST_FEATURES: u32 = 1 << 20;
+
+/// What comes back.
+pub(super) enum Fed {
+    /// The scene is on the device, compiled, in this time; first hits, where they are wanted.
+    Loaded {
+        setup: Duration,
+        features: Option<Vec<Feature>>,
+    },
+    Traced(Block, Traced),
+}
+
+/// Loads a task's scene and traces a plan, until nobody listens any more or there is enough. Blocks are started
+/// before the one in hand is done, so that the device never waits.
+pub(super) fn feed(
+    device: &mut dyn Device,
+    task: &Task,
+    wants_features: bool,
+    mut plan: Plan,
+    send: SyncSender<Fed>,
+    enough: &AtomicBool,
+) -> Result<()> {
+    let began = Instant::now();
+    device.load(&Packed::by(task.scene, task.traversal))?;
+    let features = wants_features
+        .then(|| features(device, task.region))
+        .transpose()?;
+    let setup = began.elapsed();
+    if send.send(Fed::Loaded { setup, features }).is_err() {
+        return Ok(());
+    }
+    let mut started = VecDeque::new();
+    while !enough.load(Ordering::SeqCst) {
+        while started.len() < IN_FLIGHT
+            && let Some(block) = plan.next_block()
+        {
+            device.start(block)?;
+            started.push_back(block);
+        }
+        let Some(block) = started.pop_front() else {
+            break;
+        };
+        let traced = device.finish()?;
+        plan.learn(&block, traced.took);
+        if send.send(Fed::Traced(block, traced)).is_err() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// First hits of a rectangle, by strips that fit a device's buffers.
+fn features(device: &mut dyn Device, rect: Rect) -> Result<Vec<Feature>> {
+    let rows = (MOST_FEATURES / rect.width().max(1)).max(1);
+    let mut all = Vec::with_capacity(rect.area());
+    for y0 in (rect.y0..rect.y1).step_by(rows as usize) {
+        let y1 = rect.y1.min(y0.saturating_add(rows));
+        all.extend(device.features(Rect { y0, y1, ..rect })?);
+    }
+    Ok(all)
+}

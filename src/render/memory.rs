@@ -1,0 +1,152 @@
+//! How much memory a render takes, and whether there is that much: a machine that runs out of it kills programs
+//! without asking, hours after they began.
+
+use super::{Task, plan};
+use crate::error::{Error, Result};
+use crate::pack::Tally;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Program, driver, compiler.
+const FIXED: u64 = 192 << 20;
+/// Of a pixel: sums in f64, the picture made of them in f32, and its PNG on the way to the disk.
+const PIXEL: u64 = 56 + 28 + 9;
+/// Of a pixel with layers of first hits: as traced, and as planes.
+const FEATURES: u64 = 32 + 32;
+/// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.
+const BODY: u64 = 1024;
+/// Results of a block are in the device's memory and in the host's, of several blocks at a time.
+const TALLY_COPIES: u64 = 10;
+
+/// The most memory that a render is expected to take, bytes.
+fn estimate(task: &Task) -> u64 {
+    let pixels = task.region.area() as u64;
+    let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
+    let of_pixel = PIXEL + if task.features { FEATURES } else { 0 };
+    let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
+    FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
+}
+
+/// Refuses a render that this machine, or the control group that the program runs in, has too little memory for.
+/// Where neither is known nothing is refused.
+///
+/// # Errors
+/// [`Error::TooLarge`] with the estimate and the limit.
+pub fn refuse_too_large(task: &Task) -> Result<()> {
+    let Some((limit, whose)) = limit() else {
+        return Ok(());
+    };
+    let wanted = estimate(task);
+    if wanted <= limit {
+        return Ok(());
+    }
+    let shown = |bytes: u64| format!("{:.1} GiB", bytes as f64 / (1u64 << 30) as f64);
+    Err(Error::TooLarge(format!(
+        "{} x {} pixels take about {} of memory, and {whose} is {}: render parts of the image by --crop, or fewer pixels",
+        task.region.width(),
+        task.region.height(),
+        shown(wanted),
+        shown(limit)
+    )))
+}
+
+/// The memory that there is, bytes, and whose limit that is.
+fn limit() -> Option<(u64, &'static str)> {
+    let machine = memory_of_machine(&fs::read_to_string("/proc/meminfo").ok()?)
+        .map(|bytes| (bytes, "this machine's"));
+    let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
+    let group = limit_of_groups(&groups, Path::new("/sys/fs/cgroup"))
+        .map(|bytes| (bytes, "the limit of its control group"));
+    machine.into_iter().chain(group).min()
+}
+
+/// `MemTotal` of /proc/meminfo.
+fn memory_of_machine(text: &str) -> Option<u64> {
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    kilobytes.checked_mul(1024)
+}
+
+/// The smallest limit of the groups that /proc/self/cgroup names and of those that they are in, of both versions
+/// of control groups.
+fn limit_of_groups(text: &str, root: &Path) -> Option<u64> {
+    let files = text.lines().filter_map(|line| {
+        let mut parts = line.splitn(3, ':').skip(1);
+        let (controllers, group) = (parts.next()?, parts.next()?);
+        match controllers {
+            "" => Some((root.to_path_buf(), group, "memory.max")),
+            names if names.split(',').any(|name| name == "memory") => {
+                Some((root.join("memory"), group, "memory.limit_in_bytes"))
+            }
+            _ => None,
+        }
+    });
+    let limits = files.flat_map(|(root, group, name)| {
+        let own: PathBuf = root.join(group.trim_start_matches('/'));
+        let up: Vec<_> = own.ancestors().map(Path::to_path_buf).collect();
+        // In a container the group's own folder may be mounted as the root.
+        up.into_iter()
+            .take_while(move |folder| folder.starts_with(&root))
+            .filter_map(move |folder| fs::read_to_string(folder.join(name)).ok())
+    });
+    limits.filter_map(|text| text.trim().parse().ok()).min()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pack::Rect;
+    use crate::scene::Scene;
+
+    #[test]
+    fn the_smallest_limit_counts() {
+        let root = tempfile::tempdir().unwrap();
+        let job = root.path().join("slurm/job_7");
+        fs::create_dir_all(&job).unwrap();
+        fs::write(job.join("memory.max"), "max\n").unwrap();
+        fs::write(root.path().join("slurm/memory.max"), "4096\n").unwrap();
+        fs::write(root.path().join("memory.max"), "8192\n").unwrap();
+        let text = "0::/slurm/job_7\n";
+        assert_eq!(limit_of_groups(text, root.path()), Some(4096));
+        assert_eq!(limit_of_groups("0::/\n", root.path()), Some(8192));
+        assert_eq!(limit_of_groups("", root.path()), None);
+
+        let old = root.path().join("memory/job");
+        fs::create_dir_all(&old).unwrap();
+        fs::write(old.join("memory.limit_in_bytes"), "1000\n").unwrap();
+        let text = "5:cpu,memory:/job\n4:pids:/job\n";
+        assert_eq!(limit_of_groups(text, root.path()), Some(1000));
+    }
+
+    #[test]
+    fn a_machine_says_what_it_has() {
+        let text = "MemFree: 1 kB\nMemTotal:       24689764 kB\n";
+        assert_eq!(memory_of_machine(text), Some(24_689_764 * 1024));
+        assert_eq!(memory_of_machine("MemTotal: much\n"), None);
+    }
+
+    #[test]
+    fn the_largest_picture_of_many_layers_is_estimated() {
+        let text = "version = 1\ncamera = { position = [0, 0, 0], look_at = [0, 0, -1] }\n";
+        let scene = Scene::parse("a.toml", text, &[]).unwrap();
+        let region = Rect {
+            x0: 0,
+            y0: 0,
+            x1: 16384,
+            y1: 16384,
+        };
+        let task = Task {
+            region,
+            ..Task::new(&scene)
+        };
+        let gib = estimate(&task) as f64 / (1u64 << 30) as f64;
+        assert!((23.0..25.0).contains(&gib), "{gib}");
+        let layers = Task {
+            features: true,
+            ..task
+        };
+        assert!(estimate(&layers) > (39 << 30));
+    }
+}
