@@ -1,6 +1,7 @@
 //! What each fuzz target does with its bytes. The same code runs under the fuzzer and, over the corpus that
 //! is kept, in the test suite: a body panics where the library breaks a promise, and returns otherwise.
 
+pub mod checkpoint;
 pub mod diff_exr;
 pub mod diff_png;
 pub mod record;
@@ -15,7 +16,7 @@ pub mod sweep_grid;
     dead_code,
     reason = "the fuzzer runs one body; the test suite runs all"
 )]
-pub const TARGETS: [(&str, fn(&[u8])); 7] = [
+pub const TARGETS: [(&str, fn(&[u8])); 8] = [
     ("scene", scene::run),
     ("scene_render", scene_render::run),
     ("set", set::run),
@@ -23,6 +24,7 @@ pub const TARGETS: [(&str, fn(&[u8])); 7] = [
     ("diff_png", diff_png::run),
     ("diff_exr", diff_exr::run),
     ("record", record::run),
+    ("checkpoint", checkpoint::run),
 ];
 
 /// The fuzzer's entry to a body. Its own hook ends the process at every panic, also at those of other

@@ -4,7 +4,7 @@ use super::support;
 use lampray::cpu::Cpu;
 use lampray::device::Device;
 use lampray::pack::Traversal;
-use lampray::render::{self, Task};
+use lampray::render::{self, Rendering, Task};
 use lampray::scene::{Assignment, Scene};
 use std::ops::ControlFlow;
 
@@ -40,9 +40,9 @@ fn picture(scene: &Scene, traversal: Traversal) {
         traversal,
         ..Task::new(scene)
     };
-    let mut watch = |_| ControlFlow::Continue(());
+    let mut watch = |_: &Rendering| ControlFlow::Continue(());
     let rendering = render::render(&mut device, &task, &mut watch).expect("the CPU twin renders");
-    assert!(rendering.complete);
+    assert!(rendering.complete());
     let film = &rendering.film;
     assert_eq!(film.paths, 8 * 8 * 2);
     assert!(film.non_finite <= film.paths);
