@@ -61,7 +61,7 @@ fn number_of_bodies() {
     let most = 1 << 20;
     refused(&crowd(most, 0), "`spheres.0` has no `center`");
     refused(&crowd(most + 1, 0), "more than 1048576 spheres and boxes");
-    refused(&crowd(most - 3, 4), "more than 1048576 spheres and boxes");
+    refused(&crowd(4, most - 3), "more than 1048576 spheres and boxes");
     let body = "{center=[0,0,0],radius=1,material=\"grey\"},";
     let bodies = body.repeat(200_000);
     taken(&format!(
