@@ -11,12 +11,15 @@ pub mod set;
 pub mod support;
 pub mod sweep_grid;
 
+/// Panics where an input makes the library break a promise.
+pub type Body = fn(&[u8]);
+
 /// Every target by its name, which is that of its corpus too.
 #[allow(
     dead_code,
     reason = "the fuzzer runs one body; the test suite runs all"
 )]
-pub const TARGETS: [(&str, fn(&[u8])); 8] = [
+pub const TARGETS: [(&str, Body); 8] = [
     ("scene", scene::run),
     ("scene_render", scene_render::run),
     ("set", set::run),
