@@ -80,9 +80,8 @@ fn start_walk(ray: Ray) -> Walk {
     let inverse = safe_inverse(ray.direction);
     let slack = SLACK * (length(lower + 32767.5 * cell) + half_diagonal) * abs(inverse);
     let backwards = inverse < vec3<f32>(0.0);
-    let bits = select(vec3<u32>(0u), vec3<u32>(1u, 2u, 4u), backwards);
-    let octant = (bits.x | bits.y | bits.z) & node_at(1u).w;
-    let first = HEADER + octant * order_length;
+    let number = select(vec3<u32>(0u), node_at(2u).yzw, backwards);
+    let first = HEADER + (number.x + number.y + number.z) * order_length;
     var walk = Walk(
         cell * inverse,
         lower * inverse - slack,

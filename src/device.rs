@@ -1,7 +1,9 @@
 //! What can trace: a GPU through wgpu, or the CPU twin. Both answer the same calls.
 
 use crate::error::{Error, Result};
-use crate::pack::{Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally, Traversal};
+use crate::pack::{
+    CanaryJob, CanaryScene, Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally, Traversal,
+};
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -52,6 +54,21 @@ impl DeviceInfo {
             ..self.clone()
         } == *other
     }
+}
+
+/// What a driver gives room for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Limits {
+    /// Bytes of a storage buffer that a kernel sees at once.
+    pub storage_binding: u64,
+    /// Bytes of a buffer.
+    pub buffer: u64,
+    /// Groups of lanes along one axis of a dispatch.
+    pub groups: u32,
+    /// Lanes of a group.
+    pub group_lanes: u32,
+    /// Loop iterations that a lane is given where its driver is known to stop loops that go on for long.
+    pub loop_iterations: Option<u32>,
 }
 
 /// What a user asks for with `--device`.
@@ -176,6 +193,24 @@ pub trait Device: Send {
     /// # Errors
     /// As [`Device::start`].
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>>;
+
+    /// What the driver gives room for; none for the CPU twin, which has all of the memory.
+    ///
+    /// # Errors
+    /// As [`Device::trace`].
+    fn limits(&self) -> Result<Option<Limits>>;
+
+    /// Answers one of the doctor's canaries, an answer an input; none where it says nothing of such a device.
+    ///
+    /// # Errors
+    /// As [`Device::trace`].
+    fn canary(
+        &mut self,
+        strategy: &Strategy,
+        job: &CanaryJob,
+        scenes: &[CanaryScene],
+        inputs: &[[u32; 4]],
+    ) -> Result<Option<Vec<[u32; 4]>>>;
 
     /// Time spent so far on copying results out of the device's memory: none where there is no copy.
     fn readback(&self) -> Duration {

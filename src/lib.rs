@@ -10,6 +10,7 @@
 //! ```text
 //! scene.toml ─parse→ Scene ─Packed::new→ flat buffers ─┬→ gpu (shaders/*.wgsl) ─┐
 //!            knobs ↗         Task ─Plan→ blocks ───────┴→ cpu (the twin) ───────┴→ Film → Picture → EXR, PNG + record
+//!                                 ↑────────────── Checkpoint ←──────────────────────┘
 //!
 //! any EXR, PNG ─RasterFile→ Pair ─┬→ metrics, limits, maps ─┬→ Comparison → text, JSON, exit code
 //!                                 └→ verdict ───────────────┘
@@ -22,15 +23,16 @@
 //!
 //! | room | what lives there |
 //! |---|---|
-//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
+//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`, `canary`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
 //! | [`knobs`] | the one table of knobs, the presets, the typed settings |
 //! | [`scene`] | the scene's types, the TOML parser with places, the checks |
 //! | [`bvh`] | bodies' bounds as a tree that is walked without a stack |
 //! | [`pack`] | a scene as `#[repr(C)]` buffers and a strategy of override constants |
 //! | [`shader`] | joins the WGSL files, prints constants from the Rust enums and scenes as straight-line code, parses and validates |
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
-//! | [`render`] | choice of device, the plan of blocks, the loop that feeds a device |
-//! | [`film`] | sums in f64, EXR, PNG, run record, merge; any program's images for comparing |
+//! | [`doctor`] | known-answer checks of a device, before it is trusted with a picture |
+//! | [`render`] | choice of device, the plan of blocks, the thread that feeds a device ahead, stop rules, what happens when a device is lost |
+//! | [`film`] | sums in f64, checkpoints, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`sweep`] | a grid of renders with their references: axes, plan, ledger, table, and the way back from a folder |
 //! | [`analysis`] | the pictures of a sweep: bias, variance and cost, with intervals; never renders |
@@ -43,6 +45,7 @@
 //! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
 //! | [`place`] | files that are whole or not there |
+//! | [`cache`] | files that may vanish: verdicts of the doctor, compiled pipelines |
 //! | [`cli`] | one file a command, each a thin face over the library |
 //!
 //! # The life of a sample
@@ -56,6 +59,10 @@
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
 //!    on how the work was split.
+//! 4. A [`render::Plan`] cuts the work into blocks of about 0.15 s. One thread owns the device and starts each
+//!    block before the one in hand is done; another adds up what comes back and asks whoever watches. A film is
+//!    plain data: a checkpoint is its sums, and [`render::go_on`] takes up any film where its plan left it, on
+//!    the same device or, when that is lost, on another.
 //!
 //! # How to add
 //!
@@ -73,31 +80,59 @@
 //!   imported; its twin behind [`cpu::scene::Traversal`]. `tests/bvh` holds that pictures stay the same bits.
 //! - **A kernel**: a file in `shaders/`, a name in [`shader::Kernel`] and in `shader/library.rs`.
 
-#![forbid(unsafe_code)]
+// One call of wgpu is unsafe, in `gpu`, which forbids it in all of its files but one. No other room has any.
+#![deny(unsafe_code)]
 
+#[forbid(unsafe_code)]
 pub mod analysis;
+#[forbid(unsafe_code)]
 pub mod bench;
+#[forbid(unsafe_code)]
 pub mod bvh;
+#[forbid(unsafe_code)]
+pub mod cache;
+#[forbid(unsafe_code)]
 pub mod calibrate;
+#[forbid(unsafe_code)]
 pub mod cli;
+#[forbid(unsafe_code)]
 pub mod compare;
+#[forbid(unsafe_code)]
 pub mod cpu;
+#[forbid(unsafe_code)]
 pub mod device;
+#[forbid(unsafe_code)]
+pub mod doctor;
+#[forbid(unsafe_code)]
 pub mod error;
+#[forbid(unsafe_code)]
 pub mod figures;
+#[forbid(unsafe_code)]
 pub mod film;
 pub mod gpu;
+#[forbid(unsafe_code)]
 pub mod knobs;
+#[forbid(unsafe_code)]
 pub mod pack;
+#[forbid(unsafe_code)]
 mod panics;
+#[forbid(unsafe_code)]
 pub mod place;
+#[forbid(unsafe_code)]
 pub mod points;
+#[forbid(unsafe_code)]
 pub mod render;
+#[forbid(unsafe_code)]
 pub mod report;
+#[forbid(unsafe_code)]
 pub mod reproduce;
+#[forbid(unsafe_code)]
 pub mod scene;
+#[forbid(unsafe_code)]
 pub mod shader;
+#[forbid(unsafe_code)]
 pub mod sweep;
+#[forbid(unsafe_code)]
 pub mod theory;
 
 pub use error::{Error, Result};

@@ -257,7 +257,7 @@ fn a_scene_without_lamps_is_black_but_valid() {
 fn every_command_has_help_with_an_example() {
     let folder = folder();
     for command in [
-        "render", "check", "knobs", "devices", "points", "rerun", "merge", "bench",
+        "render", "check", "knobs", "devices", "doctor", "points", "rerun", "merge", "bench",
     ] {
         let output = lampray(folder.path(), &[command, "--help"]);
         assert!(

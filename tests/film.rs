@@ -11,5 +11,6 @@ mod film {
     mod hostile;
     mod moments;
     mod output;
+    mod relative;
     mod sample;
 }

@@ -49,7 +49,10 @@ structs!(
     Camera = "Camera",
     Basis = "Basis",
     Lamp = "Lamp",
-    Material = "Material"
+    Material = "Material",
+    Sphere = "Sphere",
+    Cuboid = "Box",
+    CanaryScene = "CanaryScene"
 );
 
 /// One field of a struct: where it stands and what it holds.
@@ -187,6 +190,29 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
             }),
         ),
         ("ProbeJob", layout!(ProbeJob { function, count })),
+        (
+            "CanaryScene",
+            layout!(CanaryScene {
+                material,
+                lamp,
+                sphere,
+                body
+            }),
+        ),
+        (
+            "CanaryJob",
+            layout!(CanaryJob {
+                camera,
+                pole,
+                scene,
+                background,
+                clamp,
+                corner,
+                seed,
+                canary,
+                count
+            }),
+        ),
         ("Input", layout!(ProbeInput { a, b, c, d })),
         ("Output", layout!(ProbeOutput { a, b })),
         (

@@ -5,7 +5,7 @@ mod support;
 
 use lampray::knobs::*;
 use lampray::pack::{LastRay, RUN_LENGTH, Strategy};
-use lampray::shader::{self, Kernel, Probe, SceneArrays};
+use lampray::shader::{self, Canary, Kernel, Probe, SceneArrays};
 use naga::back::pipeline_constants::{PipelineConstantError, process_overrides};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -298,6 +298,7 @@ fn enums_have_the_same_numbers_on_both_sides() {
         expected::<InterruptionOrder>("INTERRUPTION_ORDER"),
         expected::<LastRay>("LAST_RAY"),
         expected::<Probe>("PROBE"),
+        expected::<Canary>("CANARY"),
         vec![("RUN_LENGTH".to_string(), RUN_LENGTH)],
     ];
     let mut wanted: BTreeMap<_, _> = lists.into_iter().flatten().collect();

@@ -26,8 +26,8 @@ impl<'a> Slots<'a> {
     }
 }
 
-/// Writes a subtree for rays whose direction is negative along the axes of the bits of `octant`.
-pub(super) fn thread(tree: &[Node], encoded: &[Encoded], octant: usize, slots: Slots<'_>) {
+/// Writes a subtree for rays that go backwards along some of the axes.
+pub(super) fn thread(tree: &[Node], encoded: &[Encoded], backwards: [bool; 3], slots: Slots<'_>) {
     let Some((node, children)) = tree.split_first() else {
         return;
     };
@@ -40,12 +40,12 @@ pub(super) fn thread(tree: &[Node], encoded: &[Encoded], octant: usize, slots: S
     let middle = first.size as usize;
     let (one, two) = children.split_at(middle);
     let (one_encoded, two_encoded) = encoded[1..].split_at(middle);
-    let backwards = octant >> node.axis & 1 == 1;
-    let (near, far) = rest.split_at(if backwards { two.len() } else { middle });
-    let (one_slots, two_slots) = if backwards { (far, near) } else { (near, far) };
+    let swapped = backwards[usize::from(node.axis)];
+    let (near, far) = rest.split_at(if swapped { two.len() } else { middle });
+    let (one_slots, two_slots) = if swapped { (far, near) } else { (near, far) };
     let both = (
-        || thread(one, one_encoded, octant, one_slots),
-        || thread(two, two_encoded, octant, two_slots),
+        || thread(one, one_encoded, backwards, one_slots),
+        || thread(two, two_encoded, backwards, two_slots),
     );
     if tree.len() >= PARALLEL {
         rayon::join(both.0, both.1);

@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod devices;
 mod diff;
+mod doctor;
 mod figures;
 mod keep;
 mod knobs;
@@ -55,6 +56,7 @@ enum Command {
     Check(check::Command),
     Knobs(knobs::Command),
     Devices(devices::Command),
+    Doctor(doctor::Command),
     Points(points::Command),
     Rerun(rerun::Command),
     Merge(merge::Command),
@@ -93,6 +95,7 @@ fn run(line: Lampray) -> Result<ExitCode> {
         Command::Check(command) => command.run(line.output),
         Command::Knobs(command) => command.run(line.output),
         Command::Devices(command) => command.run(line.output),
+        Command::Doctor(command) => command.run(line.output),
         Command::Points(command) => command.run(line.output),
         Command::Rerun(command) => command.run(line.output),
         Command::Merge(command) => command.run(line.output),

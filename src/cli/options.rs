@@ -131,12 +131,23 @@ impl DeviceOptions {
     }
 
     pub(crate) fn open(&self) -> Result<Chosen> {
+        let (request, require) = self.wanted()?;
+        render::open(&request, require)
+    }
+
+    /// [`DeviceOptions::open`] for the doctor.
+    pub(crate) fn open_unexamined(&self) -> Result<Chosen> {
+        let (request, require) = self.wanted()?;
+        render::open_unexamined(&request, require)
+    }
+
+    fn wanted(&self) -> Result<(DeviceRequest, Option<DeviceKind>)> {
         let request: DeviceRequest = self.device.as_deref().unwrap_or("auto").parse()?;
         let require = self.require.map(|kind| match kind {
             Require::Hardware => DeviceKind::Hardware,
             Require::Software => DeviceKind::Software,
         });
-        render::open(&request, require)
+        Ok((request, require))
     }
 }
 

@@ -8,7 +8,7 @@ use super::scene::{Hit, Traversal, rotated_box_crossing};
 use super::sphere::intersect_sphere;
 use crate::bvh::{BOX, Encoded, HEADER, NOT_SPHERE, Tree};
 use crate::pack::{Cuboid, Hierarchy, Packed, Sphere};
-use glam::Vec3;
+use glam::{UVec3, Vec3};
 
 /// The body that a ray starts inside of, as the entry that it tries first.
 const OWN: usize = 0;
@@ -82,8 +82,9 @@ fn start_walk(scene: &Packed, tree: &Tree, ray: &Ray) -> Walk {
     let inverse = safe_inverse(ray.direction);
     let slack = SLACK * ((lower + 32767.5 * cell).length() + half_diagonal) * inverse.abs();
     let backwards = inverse.cmplt(Vec3::ZERO);
-    let octant = (backwards.bitmask() & nodes[1][3]) as usize;
-    let first = HEADER + octant * order_length;
+    let [_, x, y, z] = nodes[2];
+    let order = UVec3::select(backwards, UVec3::new(x, y, z), UVec3::ZERO).element_sum();
+    let first = HEADER + order as usize * order_length;
     let (place, node) = match ray.inside {
         true => (OWN, own_leaf(scene, ray)),
         false => (first, nodes[first]),

@@ -5,6 +5,7 @@
 pub mod r#box;
 pub mod bvh;
 pub mod camera;
+pub mod canary;
 pub mod four;
 pub mod interruption;
 pub mod light;
@@ -18,9 +19,11 @@ pub mod scene;
 pub mod sphere;
 pub mod trace;
 
-use crate::device::{Block, Device, DeviceInfo, DeviceKind, Traced, runs};
+use crate::device::{Block, Device, DeviceInfo, DeviceKind, Limits, Traced, runs};
 use crate::error::{Error, Result};
-use crate::pack::{Draw, Feature, Hierarchy, Packed, PointsJob, Rect, Strategy, Tally};
+use crate::pack::{
+    CanaryJob, CanaryScene, Draw, Feature, Hierarchy, Packed, PointsJob, Rect, Strategy, Tally,
+};
 use bvh::ByTree;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -159,6 +162,20 @@ impl Device for Cpu {
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {
         let draw = |number| points::draw(strategy, job, number);
         Ok((0..job.count).into_par_iter().map(draw).collect())
+    }
+
+    fn limits(&self) -> Result<Option<Limits>> {
+        Ok(None)
+    }
+
+    fn canary(
+        &mut self,
+        _strategy: &Strategy,
+        job: &CanaryJob,
+        _scenes: &[CanaryScene],
+        inputs: &[[u32; 4]],
+    ) -> Result<Option<Vec<[u32; 4]>>> {
+        Ok(canary::canary(job, inputs))
     }
 }
 

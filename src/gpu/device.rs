@@ -2,13 +2,14 @@
 
 use super::adapter::Adapters;
 use super::cache::{Cache, Key};
+use super::disk_cache::Kept;
 use super::fault::Fault;
 use super::flight::{Flight, Pace, Rooms};
 use super::guard::Guard;
 use super::pieces::{Allowance, pieces};
 use super::pipeline::Pipeline;
 use super::trace::Queue;
-use crate::device::{Block, Device, DeviceInfo, Traced};
+use crate::device::{Block, Device, DeviceInfo, Limits, Traced};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::panics::catch;
@@ -35,8 +36,9 @@ pub(super) struct Loaded {
 #[derive(Debug)]
 pub struct Gpu {
     pub(super) info: DeviceInfo,
-    guard: Guard,
+    pub(super) guard: Guard,
     pipelines: Cache<Arc<Pipeline>>,
+    pub(super) kept: Option<Kept>,
     rooms: Rooms,
     pace: Pace,
     loaded: Option<Loaded>,
@@ -68,6 +70,7 @@ impl Gpu {
         let (adapter, info) = adapters.get(index).ok_or_else(missing)?;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("lampray"),
+            required_features: Kept::features(adapter),
             required_limits: adapter.limits(),
             ..Default::default()
         };
@@ -81,9 +84,11 @@ impl Gpu {
         let (device, queue) = opened
             .map_err(|_| refused("its driver failed".into()))?
             .map_err(|error| refused(error.to_string()))?;
+        let guard = Guard::new(device, queue, &info.name);
         Ok(Self {
             info: info.clone(),
-            guard: Guard::new(device, queue, &info.name),
+            kept: Kept::open(&guard, adapter, info),
+            guard,
             pipelines: Cache::new(),
             rooms: Rooms::default(),
             pace: Pace::default(),
@@ -118,7 +123,9 @@ impl Gpu {
             lamps: 1,
             ..SceneArrays::default()
         };
-        let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays.unwrap_or(none), baked)?;
+        let kept = self.kept.as_ref().map(Kept::pipelines);
+        let arrays = arrays.unwrap_or(none);
+        let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays, baked, kept)?;
         let pipeline = Arc::new(pipeline);
         self.pipelines.insert(key, pipeline.clone());
         Ok(pipeline)
@@ -181,7 +188,7 @@ impl Gpu {
     }
 
     /// Runs a kernel over `groups` and returns its `count` results. `scene` is whether it traces.
-    fn dispatch<T: Pod + Zeroable>(
+    pub(super) fn dispatch<T: Pod + Zeroable>(
         &mut self,
         pipeline: &Pipeline,
         scene: bool,
@@ -284,6 +291,7 @@ impl Device for Gpu {
             buffers.push(guard.filled(&bytes(&array), wgpu::BufferUsages::STORAGE)?);
         }
         self.pace.forget();
+        self.fault.begin();
         self.queue = Queue::default();
         self.loaded = Some(Loaded {
             packed: scene.clone(),
@@ -349,6 +357,20 @@ impl Device for Gpu {
         let inputs = [(bytemuck::bytes_of(job), wgpu::BufferUsages::UNIFORM)];
         let groups = [job.count.div_ceil(64), 1];
         self.dispatch(&pipeline, false, &inputs, groups, job.count as usize)
+    }
+
+    fn limits(&self) -> Result<Option<Limits>> {
+        self.stated_limits().map(Some)
+    }
+
+    fn canary(
+        &mut self,
+        strategy: &Strategy,
+        job: &CanaryJob,
+        scenes: &[CanaryScene],
+        inputs: &[[u32; 4]],
+    ) -> Result<Option<Vec<[u32; 4]>>> {
+        self.answer(strategy, job, scenes, inputs).map(Some)
     }
 
     fn readback(&self) -> Duration {

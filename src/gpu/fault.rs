@@ -5,7 +5,7 @@ use std::env;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Names the blocks after which devices are destroyed: `5` the first device that the program opens, after
-/// five blocks; `5,0` the second one too, at once.
+/// five blocks of a scene; `5,0` the second one too, at once.
 pub const LOSE_DEVICE: &str = "LAMPRAY_TEST_LOSE_DEVICE";
 
 /// How many devices this program has opened.
@@ -14,7 +14,8 @@ static OPENED: AtomicUsize = AtomicUsize::new(0);
 /// When a device is to be lost.
 #[derive(Debug)]
 pub struct Fault {
-    blocks_left: Option<u64>,
+    after: Option<u64>,
+    blocks: u64,
 }
 
 impl Fault {
@@ -23,17 +24,23 @@ impl Fault {
         let number = OPENED.fetch_add(1, Ordering::SeqCst);
         let text = env::var(LOSE_DEVICE).unwrap_or_default();
         Self {
-            blocks_left: text
+            after: text
                 .split(',')
                 .nth(number)
-                .and_then(|n| n.trim().parse().ok()),
+                .and_then(|blocks| blocks.trim().parse().ok()),
+            blocks: 0,
         }
+    }
+
+    /// Another scene is loaded: its blocks are counted anew.
+    pub fn begin(&mut self) {
+        self.blocks = 0;
     }
 
     /// Whether the device is to be lost now; asked before each block.
     pub fn strikes(&mut self) -> bool {
-        let now = self.blocks_left == Some(0);
-        self.blocks_left = self.blocks_left.and_then(|left| left.checked_sub(1));
+        let now = self.after == Some(self.blocks);
+        self.blocks += 1;
         now
     }
 }

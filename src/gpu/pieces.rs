@@ -28,6 +28,11 @@ fn stops_early(device: &DeviceInfo) -> bool {
     device.kind == DeviceKind::Software && major.is_none_or(|major| major < FREE_MESA)
 }
 
+/// Loop iterations that an invocation is given where its driver leaves loops that take long.
+pub fn planned_iterations(device: &DeviceInfo) -> Option<u32> {
+    stops_early(device).then_some(SOFTWARE_ITERATIONS as u32)
+}
+
 /// How much of a pixel one dispatch may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Allowance {

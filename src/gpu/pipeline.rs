@@ -20,6 +20,12 @@ pub fn bindings(kernel: Kernel) -> &'static [Binding] {
     match kernel {
         Kernel::Trace | Kernel::Features | Kernel::Points => &[Binding::Uniform, Binding::Write],
         Kernel::Probe => &[Binding::Uniform, Binding::Read, Binding::Write],
+        Kernel::Canary => &[
+            Binding::Uniform,
+            Binding::Read,
+            Binding::Read,
+            Binding::Write,
+        ],
     }
 }
 
@@ -73,7 +79,8 @@ pub fn scene_bindings(arrays: SceneArrays) -> Vec<Binding> {
 }
 
 impl Pipeline {
-    /// Compiles a kernel for a strategy and for arrays of these lengths.
+    /// Compiles a kernel for a strategy and for arrays of these lengths. What the driver made of kernels that
+    /// serve many scenes is `kept`.
     ///
     /// # Errors
     /// [`crate::Error::Internal`] with file and line where the shader is at fault.
@@ -83,6 +90,7 @@ impl Pipeline {
         strategy: &Strategy,
         arrays: SceneArrays,
         baked: Option<&Baked>,
+        kept: Option<&wgpu::PipelineCache>,
     ) -> Result<Self> {
         let joined = match baked {
             Some(baked) => shader::baked_source(baked)?,
@@ -116,7 +124,7 @@ impl Pipeline {
                     constants: &constants,
                     zero_initialize_workgroup_memory: false,
                 },
-                cache: None,
+                cache: kept.filter(|_| baked.is_none()),
             });
             Self {
                 pipeline,

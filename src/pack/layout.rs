@@ -180,6 +180,34 @@ pub struct ProbeOutput {
     pub b: [f32; 4],
 }
 
+/// `canary.wgsl`: every struct that a scene's arrays hold.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct CanaryScene {
+    pub material: Material,
+    pub lamp: Lamp,
+    pub sphere: Sphere,
+    /// A box; `box` is a word of Rust's.
+    pub body: Cuboid,
+}
+
+/// `canary.wgsl`: one dispatch, with every kind of member that a job has.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct CanaryJob {
+    /// A [`crate::shader::Canary`]'s number.
+    pub canary: u32,
+    pub count: u32,
+    pub corner: [u32; 2],
+    pub seed: [u32; 2],
+    pub _pad0: [u32; 2],
+    pub camera: Camera,
+    pub pole: Basis,
+    pub scene: CanaryScene,
+    pub background: Vec3,
+    pub clamp: f32,
+}
+
 /// What a device measured of one pixel over one run of samples.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

@@ -60,7 +60,9 @@ impl Packed {
             lamps.len() as u32,
         );
         let by_tree = traversal == Traversal::Bvh;
-        let hierarchy = by_tree.then(|| Hierarchy::new(&spheres, &boxes, straight));
+        let camera = pack_camera(&scene.camera, settings.image.width, settings.image.height);
+        let view = camera.forward.into();
+        let hierarchy = by_tree.then(|| Hierarchy::new(&spheres, &boxes, straight, view));
         if let Some(hierarchy) = &hierarchy {
             strategy.outside_sphere_count = hierarchy.spheres.len() as u32;
             strategy.outside_box_count = hierarchy.boxes.len() as u32 - hierarchy.rotated;
@@ -68,7 +70,7 @@ impl Packed {
         }
         let material = |material| pack_material(material, settings.scatter.bound);
         Self {
-            camera: pack_camera(&scene.camera, settings.image.width, settings.image.height),
+            camera,
             pole: pack_pole(settings.light.pole),
             background: single(scene.background),
             clamp: settings.render.clamp.map_or(f32::MAX, |clamp| clamp as f32),

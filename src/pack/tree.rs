@@ -18,9 +18,10 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// Over the packed bodies of a scene, of whose boxes the first `straight` are unrotated.
-    pub(super) fn new(spheres: &[Sphere], boxes: &[Cuboid], straight: usize) -> Self {
-        let tree = tree(spheres, boxes);
+    /// Over the packed bodies of a scene, of whose boxes the first `straight` are unrotated,
+    /// seen along `view`.
+    pub(super) fn new(spheres: &[Sphere], boxes: &[Cuboid], straight: usize, view: Vec3) -> Self {
+        let tree = tree(spheres, boxes, view);
         let outside = || tree.outside.iter().map(|body| *body as usize - 1);
         let round = outside().filter_map(|index| spheres.get(index).copied());
         let place = |index: usize| index.checked_sub(spheres.len());
@@ -38,10 +39,10 @@ impl Hierarchy {
     }
 }
 
-fn tree(spheres: &[Sphere], boxes: &[Cuboid]) -> Tree {
+fn tree(spheres: &[Sphere], boxes: &[Cuboid], view: Vec3) -> Tree {
     let round = spheres.par_iter().map(sphere_bounds);
     let bounds: Vec<_> = round.chain(boxes.par_iter().map(box_bounds)).collect();
-    Tree::new(&bounds, |index| match spheres.get(index) {
+    Tree::new(&bounds, view, |index| match spheres.get(index) {
         Some(sphere) => sphere_leaf(sphere),
         None => [(index - spheres.len()) as u32, 0, 0, NOT_SPHERE | BOX],
     })

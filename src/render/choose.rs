@@ -2,6 +2,7 @@
 
 use crate::cpu::{self, Cpu};
 use crate::device::{Device, DeviceInfo, DeviceKind, DeviceRequest};
+use crate::doctor;
 use crate::error::{Error, Result};
 use crate::gpu::{Adapters, Gpu, adapters};
 
@@ -21,11 +22,38 @@ pub struct Chosen {
     pub remark: Option<String>,
 }
 
-/// Opens what was asked for; `require` refuses every other kind.
+/// What a graphics device must pass before it is chosen.
+type Entry = fn(&mut dyn Device) -> Result<()>;
+
+/// Opens what was asked for; `require` refuses every other kind. A graphics device that this program has
+/// not met under its driver is examined first ([`doctor::trust`]): where any device will do the next one is
+/// taken in the place of one that fails, and the remark says so.
 ///
 /// # Errors
-/// [`Error::Device`] with what is there and what is missing.
+/// [`Error::Device`] with what is there and what is missing, or with the canary that failed.
 pub fn open(request: &DeviceRequest, require: Option<DeviceKind>) -> Result<Chosen> {
+    open_after(request, require, doctor::trust)
+}
+
+/// [`open`] for who examines the device anyway.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_unexamined(request: &DeviceRequest, require: Option<DeviceKind>) -> Result<Chosen> {
+    open_after(request, require, |_| Ok(()))
+}
+
+fn open_gpu(found: &Adapters, index: usize, entry: Entry) -> Result<Box<dyn Device>> {
+    let mut gpu = Gpu::open(found, index)?;
+    entry(&mut gpu)?;
+    Ok(Box::new(gpu))
+}
+
+fn open_after(
+    request: &DeviceRequest,
+    require: Option<DeviceKind>,
+    entry: Entry,
+) -> Result<Chosen> {
     if *request == DeviceRequest::Cpu {
         return finish(
             Chosen {
@@ -38,7 +66,7 @@ pub fn open(request: &DeviceRequest, require: Option<DeviceKind>) -> Result<Chos
     let found = adapters();
     let infos: Vec<_> = found.infos().cloned().collect();
     let chosen = match request {
-        DeviceRequest::Auto => open_best(&found, &infos, require)?,
+        DeviceRequest::Auto => open_best(&found, &infos, require, entry)?,
         DeviceRequest::Index(index) if *index == infos.len() => Chosen {
             device: Box::new(Cpu::new()),
             remark: None,
@@ -50,7 +78,7 @@ pub fn open(request: &DeviceRequest, require: Option<DeviceKind>) -> Result<Chos
                 .position(|(index, info)| matches(request, index, info))
                 .ok_or_else(|| missing(request, &infos))?;
             Chosen {
-                device: Box::new(Gpu::open(&found, index)?),
+                device: open_gpu(&found, index, entry)?,
                 remark: None,
             }
         }
@@ -64,27 +92,27 @@ fn open_best(
     found: &Adapters,
     infos: &[DeviceInfo],
     require: Option<DeviceKind>,
+    entry: Entry,
 ) -> Result<Chosen> {
     let mut refused = Vec::new();
     for (index, info) in infos.iter().enumerate() {
         if require.is_some_and(|kind| kind != info.kind) {
             continue;
         }
-        match Gpu::open(found, index) {
-            Ok(gpu) => {
-                let software = info.kind == DeviceKind::Software;
-                let remark = software
-                    .then(|| format!("no GPU: rendering on software Vulkan, {}", info.name));
-                return Ok(Chosen {
-                    device: Box::new(gpu),
-                    remark,
-                });
+        match open_gpu(found, index, entry) {
+            Ok(device) => {
+                let remark = passed_over(&refused, info);
+                return Ok(Chosen { device, remark });
             }
+            Err(error @ Error::Usage(_)) => return Err(error),
             Err(error) => refused.push(error.to_string()),
         }
     }
     if let Some(kind) = require.filter(|kind| *kind != DeviceKind::Cpu) {
-        return Err(missing_kind(kind, infos));
+        return Err(match refused.is_empty() {
+            true => missing_kind(kind, infos),
+            false => Error::Device(refused.join("; ")),
+        });
     }
     let mut remark =
         format!("no Vulkan device: rendering with the built-in CPU renderer ({VULKAN_HINT})");
@@ -98,6 +126,22 @@ fn open_best(
         device: Box::new(Cpu::new()),
         remark: Some(remark),
     })
+}
+
+/// What is to be said of a graphics device that was taken when others refused.
+fn passed_over(refused: &[String], info: &DeviceInfo) -> Option<String> {
+    match (refused, info.kind) {
+        ([], DeviceKind::Software) => Some(format!(
+            "no GPU: rendering on software Vulkan, {}",
+            info.name
+        )),
+        ([], _) => None,
+        (refused, _) => Some(format!(
+            "{}; rendering on {}",
+            refused.join("; "),
+            info.name
+        )),
+    }
 }
 
 fn finish(chosen: Chosen, require: Option<DeviceKind>) -> Result<Chosen> {

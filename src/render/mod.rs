@@ -9,7 +9,7 @@ mod picture;
 mod plan;
 mod rendering;
 
-pub use choose::{Chosen, VULKAN_HINT, devices, open, word};
+pub use choose::{Chosen, VULKAN_HINT, devices, open, open_unexamined, word};
 pub use endure::{Spares, endure};
 pub use memory::refuse_too_large;
 pub use picture::{picture, record, scene_hash};

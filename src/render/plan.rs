@@ -104,7 +104,7 @@ impl Plan {
         })
     }
 
-    /// The plan with bands that end wherever [`look::next`] says.
+    /// The plan with bands that end wherever a look is taken at the error.
     pub fn with_looks(self) -> Self {
         Self {
             looks: true,

@@ -13,6 +13,7 @@ library!(
     "box",
     "bvh",
     "camera",
+    "canary",
     "features",
     "interruption",
     "light",

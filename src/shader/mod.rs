@@ -23,6 +23,22 @@ choice! {
         Features = "features",
         Points = "points",
         Probe = "probe",
+        Canary = "canary",
+    }
+}
+
+choice! {
+    /// What the canary kernel can be asked; `doctor` knows the answers.
+    Canary, "CANARY" {
+        Loops = "loops",
+        Integers = "integers",
+        Random = "random",
+        Layout = "layout",
+        Finite = "finite",
+        Denormals = "denormals",
+        Bounds = "bounds",
+        Floats = "floats",
+        Conversion = "conversion",
     }
 }
 
@@ -64,6 +80,7 @@ fn constants() -> String {
         InterruptionOrder::wgsl_constants(),
         LastRay::wgsl_constants(),
         Probe::wgsl_constants(),
+        Canary::wgsl_constants(),
         format!("const RUN_LENGTH: u32 = {RUN_LENGTH}u;\n"),
     ]
     .concat()
@@ -76,7 +93,7 @@ fn constants() -> String {
 pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
     let scene = match kernel {
         Kernel::Trace | Kernel::Features => arrays.declarations(),
-        Kernel::Points | Kernel::Probe => String::new(),
+        Kernel::Points | Kernel::Probe | Kernel::Canary => String::new(),
     };
     join(kernel.name(), &(constants() + &scene), arrays.traversal())
 }

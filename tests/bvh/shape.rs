@@ -188,9 +188,12 @@ fn only_outsize_bodies_stand_outside() {
 fn a_million_bodies_fit() {
     let mut scene = empty("bvh");
     scene.spheres = bodies("flat", 1 << 20, &mut Stream::new(12)).0;
+    scene.camera.look_at = scene.camera.position + glam::DVec3::new(-3.0, 0.1, 1.0);
     let packed = Packed::new(&scene);
     let tree = &hierarchy(&packed).tree;
     assert_eq!(tree.orders(), 4);
+    let [_, x, y, z] = tree.nodes[2];
+    assert_eq!([x, y, z], [1, 0, 2], "seen along x and z, hardly along y");
     assert!(size_of_val(tree.nodes.as_slice()) <= MOST_BYTES);
     assert_eq!(tree.order(3).end + 1, tree.nodes.len());
 }
