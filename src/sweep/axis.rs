@@ -71,7 +71,7 @@ impl Axis {
         if values.len() > MOST_RUNS {
             return Err(too_many());
         }
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = std::collections::HashSet::with_capacity(values.len());
         if let Some(twice) = values.iter().find(|value| !seen.insert(value.as_str())) {
             return Err(format!("{} is there twice", short(twice)));
         }
@@ -147,10 +147,10 @@ fn expand(text: &str, room: usize) -> std::result::Result<Vec<String>, String> {
     Ok(values.into_iter().map(written).collect())
 }
 
-/// Whole numbers as knobs that take whole numbers want them.
+/// Whole numbers as knobs that take whole numbers want them; those here fit.
 fn written(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 {
-        format!("{value:.0}")
+        (value as i64).to_string()
     } else {
         // 0.1 + 0.2 is meant to be 0.3.
         let rounded: f64 = format!("{value:.12e}").parse().unwrap_or(value);
