@@ -110,7 +110,7 @@ impl Pace {
         Self {
             started: Instant::now(),
             done: 0,
-            all: sweeps.iter().map(Sweep::paths).sum(),
+            all: sweeps.iter().map(Sweep::paths).fold(0, u64::saturating_add),
         }
     }
 

@@ -191,6 +191,40 @@ fn many_errors_and_long_lines_stay_readable() {
     assert!(!page.contains('\u{1b}'), "{page}");
 }
 
+/// A scene's name may come out of an image.
+#[test]
+fn names_of_scenes_hold_no_codes_for_a_terminal() {
+    let Err(Error::Scene(page)) = Scene::parse("\u{1b}[2J.toml", "version = 2\n", &[]) else {
+        panic!("version 2 was read");
+    };
+    assert!(page.contains("[2J.toml:1:11"), "{page}");
+    assert!(!page.contains('\u{1b}'), "{page:?}");
+}
+
+/// The record of a picture may set every knob of sixty thousand materials; each is found at once.
+#[test]
+fn a_hundred_thousand_assignments_are_laid_over_a_scene() {
+    let names: String = (0..60_000)
+        .map(|number| format!("[materials.m{number}]\n"))
+        .collect();
+    let text = format!("{GOOD}{names}");
+    let set = |number: usize| {
+        let path = format!("materials.m{}.survival", number % 60_000);
+        Assignment::new(path, "0.5", "--set")
+    };
+    let all: Vec<_> = (0..120_000).map(set).collect();
+    let scene = Scene::parse("s.toml", &text, &all).unwrap();
+    assert!(scene.materials[2..].iter().all(|one| one.survival == 0.5));
+    let mut radii: Vec<_> = (0..100_000)
+        .map(|number| Assignment::new("spheres.0.radius", format!("{}", number + 1), "--set"))
+        .collect();
+    radii.push(Assignment::new("boxes.0.rotation", "[0, 1, 0]", "--set"));
+    let scene = Scene::parse("s.toml", GOOD, &radii).unwrap();
+    assert_eq!(scene.spheres[0].radius, 100_000.0);
+    assert_eq!(scene.knobs["spheres.0.radius"], 100_000.0);
+    assert_eq!(scene.knobs["boxes.0.rotation"][1], 1.0);
+}
+
 #[test]
 fn what_is_no_scene_at_all_is_refused() {
     assert!(refused("").contains("bad.toml:1:1\n"));

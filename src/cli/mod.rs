@@ -144,7 +144,13 @@ pub(crate) fn print(text: &str) -> Result<()> {
 
 /// Says something on stderr, if anybody listens there.
 pub(crate) fn note(text: &str) {
-    let _ = writeln!(io::stderr(), "{}", text.trim_end());
+    let _ = writeln!(io::stderr(), "{}", plain(text.trim_end()));
+}
+
+/// Text for a terminal: names in files and of drivers may hold codes that move its cursor, or worse.
+pub(crate) fn plain(text: &str) -> String {
+    let code = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    text.replace(code, "\u{fffd}")
 }
 
 /// The exit code of each kind of error, as the README lists them.

@@ -211,7 +211,7 @@ pub(crate) fn sample_range(text: &str) -> Result<Range<u64>> {
     match parsed {
         Some(range) if range.start < range.end && range.end <= 1 << 63 => Ok(range),
         _ => Err(Error::Usage(format!(
-            "--sample-range {text}: give A..B with A < B, whole numbers, B exclusive (for example 0..64)"
+            "--sample-range {text}: give A..B with A < B, whole numbers up to 2^63, B exclusive (for example 0..64)"
         ))),
     }
 }

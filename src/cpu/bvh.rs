@@ -101,12 +101,14 @@ fn start_walk(scene: &Packed, tree: &Tree, ray: &Ray) -> Walk {
     }
 }
 
-/// Whether a ray enters an inner node's box nearer than `reach`.
+/// Whether a ray enters an inner node's box nearer than `reach`. Shifts and places wrap here, as WGSL's do: asking
+/// whether they would costs 3 % of the time.
 #[inline(always)]
 fn enters(walk: &Walk, reach: f32) -> bool {
-    let line = |axis: usize, shift: u32| ((walk.node[axis] >> shift) & 0xffff) as i32 as f32;
+    let line =
+        |axis: usize, shift: u32| (walk.node[axis].wrapping_shr(shift) & 0xffff) as i32 as f32;
     let near_line = |axis: usize| line(axis, walk.near_shift[axis]);
-    let far_line = |axis: usize| line(axis, 16 - walk.near_shift[axis]);
+    let far_line = |axis: usize| line(axis, walk.near_shift[axis] ^ 16);
     let enter = Vec3::new(near_line(0), near_line(1), near_line(2)) * walk.step + walk.near_start;
     let leave = Vec3::new(far_line(0), far_line(1), far_line(2)) * walk.step + walk.far_start;
     let near = greater(greater(enter.x, enter.y), greater(enter.z, 0.0));
@@ -171,7 +173,7 @@ impl ByTree<'_> {
         if !at_leaf(walk) {
             let skip = (walk.node[3] & !NOT_SPHERE) as usize;
             let skip = if enters(walk, reach) { 1 } else { skip };
-            self.go_to(walk, walk.place + skip);
+            self.go_to(walk, walk.place.wrapping_add(skip));
         }
     }
 
@@ -179,7 +181,7 @@ impl ByTree<'_> {
     fn after_leaf(&self, walk: &mut Walk) {
         let next = match walk.place {
             OWN => walk.first,
-            place => place + 1,
+            place => place.wrapping_add(1),
         };
         self.go_to(walk, next);
     }

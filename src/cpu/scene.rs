@@ -44,7 +44,7 @@ pub fn rotated_box_crossing(shape: &Cuboid, ray: &Ray) -> Crossing {
 
 #[inline(always)]
 fn sphere_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
-    let sphere = &scene.spheres[hit.body as usize - 1];
+    let sphere = &scene.spheres[(hit.body as usize).wrapping_sub(1)];
     let center = Vec3::from(sphere.center);
     let outward = sphere_normal(center, ray.origin + hit.distance * ray.direction);
     let inside = outward.dot(ray.direction) > 0.0;
@@ -62,7 +62,7 @@ fn sphere_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
 
 #[inline(always)]
 fn box_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
-    let index = hit.body as usize - 1 - scene.spheres.len();
+    let index = (hit.body as usize).wrapping_sub(1 + scene.spheres.len());
     let shape = &scene.boxes[index];
     let rotated = index >= scene.strategy.box_count as usize;
     let (center, half_size) = (Vec3::from(shape.center), Vec3::from(shape.half_size));

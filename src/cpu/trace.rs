@@ -88,7 +88,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         if strategy.light_strategy == LightStrategy::Sample {
             return 0.0;
         }
-        let lamp = &self.scene.lamps[surface.lamp as usize - 1];
+        let lamp = &self.scene.lamps[(surface.lamp as usize).wrapping_sub(1)];
         let outward = if surface.inside {
             -surface.normal
         } else {
@@ -137,7 +137,9 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             return (Vec3::ZERO, 0);
         }
         let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
-        let u = Vec4::from(random_unit(path.key, path.vertex + 1, index as u32 + 1));
+        // Here and below whole numbers wrap, as WGSL's do: asking whether they would costs 3 % of the time.
+        let slot = (index as u32).wrapping_add(1);
+        let u = Vec4::from(random_unit(path.key, path.vertex.wrapping_add(1), slot));
         let light = sample_light(strategy, lamp, self.pole, origin, inside, u);
         let density = scatter_density(
             strategy,
@@ -180,7 +182,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         for index in 0..self.scene.lamps.len() {
             let (radiance, rays) = self.light_from(index, path, surface, origin);
             sum += radiance;
-            path.rays += rays;
+            path.rays = path.rays.saturating_add(rays);
         }
         path.radiance += path.throughput * sum;
     }
@@ -212,7 +214,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             source: surface.body,
             inside: surface.inside,
         };
-        path.vertex += 1;
+        path.vertex = path.vertex.wrapping_add(1);
         let useful = path.vertex < self.job.max_bounces || self.last_ray_counts(&scattered);
         path.alive = useful && largest(path.throughput) > 0.0;
     }
@@ -228,7 +230,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         }
         let material = &self.scene.materials[surface.material as usize];
         let albedo = Vec3::from(material.albedo);
-        let u = random_unit(path.key, path.vertex + 1, 0);
+        let u = random_unit(path.key, path.vertex.wrapping_add(1), 0);
         let tested = strategy.interruption_rule != InterruptionRule::None
             && path.vertex >= self.job.interruption_start;
         let (mut survives, mut weight) = (true, 1.0);
@@ -260,7 +262,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
     #[inline(always)]
     fn step_path(&self, path: &mut Path) {
         let hit = self.bodies.nearest_hit(&path.ray);
-        path.rays += 1;
+        path.rays = path.rays.saturating_add(1);
         if hit.body == 0 {
             if self.emission_counts(path) {
                 path.radiance += path.throughput * Vec3::from(self.job.background);
@@ -334,7 +336,7 @@ impl Run {
         self.sum += apart;
         self.squares += apart * apart;
         self.samples += 1;
-        self.rays += rays;
+        self.rays = self.rays.saturating_add(rays);
     }
 
     fn tally(&self) -> Tally {

@@ -12,6 +12,7 @@ use super::moments::{Film, NonFinite};
 use super::record::Record;
 use super::same::difference;
 use crate::error::{Error, Result};
+use crate::knobs::short;
 use crate::pack::Rect;
 use crate::place::Place;
 use serde::{Deserialize, Serialize};
@@ -128,7 +129,10 @@ impl Checkpoint {
             ));
         };
         let [x0, y0, x1, y1] = head.region;
-        let sides = [(x0, x1), (y0, y1)].map(|(from, to)| u64::from(to.saturating_sub(from)));
+        if x0 >= x1 || y0 >= y1 {
+            return Ok(Err("the checkpoint is damaged: it is of no pixels".into()));
+        }
+        let sides = [x1 - x0, y1 - y0].map(u64::from);
         // Nothing is allocated that the file does not have.
         let announced = sides[0].saturating_mul(sides[1]).saturating_mul(PIXEL);
         if announced != length - fixed - head_length {
@@ -201,6 +205,7 @@ impl Checkpoint {
     /// [`Error::Data`] with the name of what is another.
     pub fn refuse_other(&self, path: &Path, wanted: &Record, samples: [u64; 2]) -> Result<()> {
         let other = |what: &str, here: &str, there: &str| {
+            let [what, here, there] = [what, here, there].map(short);
             Err(data(
                 path,
                 format!(

@@ -121,9 +121,9 @@ impl Film {
     }
 
     fn count(&mut self, more: Totals) {
-        self.paths += more.paths;
-        self.rays += more.rays;
-        self.non_finite += more.non_finite;
+        self.paths = self.paths.saturating_add(more.paths);
+        self.rays = self.rays.saturating_add(more.rays);
+        self.non_finite = self.non_finite.saturating_add(more.non_finite);
         self.first_non_finite = earlier(self.first_non_finite, more.first_non_finite);
     }
 

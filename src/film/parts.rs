@@ -4,6 +4,7 @@ use super::same::difference;
 use super::{Picture, Record, read_exr, read_record};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
+use crate::knobs::short;
 use std::path::{Path, PathBuf};
 
 /// The knob in which the parts may differ: how many samples.
@@ -88,7 +89,9 @@ fn compare_devices(first: &Part, other: &Part) -> Result<()> {
 }
 
 fn describe(device: &DeviceInfo) -> String {
-    format!("{} ({} {})", device.name, device.backend, device.driver)
+    let [name, backend, driver] =
+        [&device.name, &device.backend, &device.driver].map(|word| short(word));
+    format!("{name} ({backend} {driver})")
 }
 
 /// Refuses two pictures that share a sample.

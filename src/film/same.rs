@@ -1,6 +1,7 @@
 //! Whether two records are of one render.
 
 use super::record::Record;
+use crate::knobs::short;
 use serde_json::Value;
 
 /// What two records do not agree in, and what each says.
@@ -27,7 +28,13 @@ pub(super) fn difference(a: &Record, b: &Record, ignored: Option<&str>) -> Optio
         one,
         other,
     });
-    field.or_else(|| knob(a, b, ignored))
+    let found = field.or_else(|| knob(a, b, ignored))?;
+    // It is for a message, and comes out of a file.
+    Some(Difference {
+        what: short(&found.what),
+        one: short(&found.one),
+        other: short(&found.other),
+    })
 }
 
 fn knob(a: &Record, b: &Record, ignored: Option<&str>) -> Option<Difference> {

@@ -14,6 +14,8 @@ use std::path::Path;
 pub const SCENE_TEXT_LIMIT: usize = 1 << 20;
 /// The largest record, in bytes.
 pub(super) const RECORD_LIMIT: usize = 16 << 20;
+/// Devices of a merged picture: each new one is compared with all of them.
+const DEVICE_LIMIT: usize = 4096;
 /// The largest piece of text in a file, as it is stored, in bytes.
 pub(super) const STORED_LIMIT: usize = 64 << 20;
 
@@ -71,6 +73,10 @@ pub(super) fn parse_record(path: &Path, json: Option<&[u8]>) -> Result<Record> {
             path,
             "the sample ranges of the record inside are not in order",
         ));
+    }
+    if record.devices.len() > DEVICE_LIMIT {
+        let reason = format!("the record inside names over {DEVICE_LIMIT} devices");
+        return Err(data(path, reason));
     }
     Ok(record)
 }

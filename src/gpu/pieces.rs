@@ -263,7 +263,9 @@ mod tests {
 
     #[test]
     fn pieces_add_up_to_runs() {
-        let values: Vec<f32> = (0..24u8).map(|i| f32::from(i * 37 % 11)).collect();
+        let values: Vec<f32> = (0..24u8)
+            .map(|i| f32::from(i.wrapping_mul(37) % 11))
+            .collect();
         let mut gathered = Gathered::new(1);
         for piece in pieces(block(4, 24), 4) {
             let (start, count) = (piece.first_sample, piece.samples);

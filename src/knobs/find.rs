@@ -78,12 +78,16 @@ fn specific(known: &str, path: &str) -> String {
     }
 }
 
+/// Comparing two names takes the product of their lengths, and a file may hold a thousand mistakes beside
+/// thousands of names: longer words, and names after so many, are not looked at.
+const LONGEST: usize = 64;
+const MOST_NAMES: usize = 256;
+
 /// The name nearest to a word that is none of them, if any is near enough to be meant.
 pub fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase().replace(' ', "_");
     let length = word.chars().count();
-    // Comparing takes length squared; nobody mistypes a name this long.
-    if length > 100 {
+    if length > LONGEST {
         return None;
     }
     let distance = |name: &'a str| {
@@ -92,7 +96,8 @@ pub fn nearest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
             name,
         )
     };
-    let near = names.into_iter().filter(|name| name.len() <= 400);
+    let near = names.into_iter().take(MOST_NAMES);
+    let near = near.filter(|name| name.len() <= 4 * LONGEST);
     let (distance, name) = near.map(distance).min_by_key(|(distance, _)| *distance)?;
     let limit = (length.max(name.chars().count()) / 3).max(1);
     let begins = length >= 3 && name.to_lowercase().starts_with(&word);

@@ -101,7 +101,7 @@ fn float(written: &DeFloat<'_>) -> Result<f64, String> {
 fn whole(written: &DeInteger<'_>) -> Result<f64, String> {
     let text = written.as_str();
     let number = if written.radix() == 10 {
-        text.parse().ok()
+        text.parse().ok().filter(|number: &f64| number.is_finite())
     } else {
         i128::from_str_radix(text, written.radix())
             .ok()

@@ -26,6 +26,8 @@ const MEMORY: f64 = 0.9;
 /// Samples of a pixel that one dispatch takes where there is enough to do beside: long lanes keep
 /// the device full.
 const LONG: u64 = 64;
+/// Samples of a pixel that any dispatch takes.
+const MOST_BAND: u64 = 64 * LONG;
 /// Pixels that keep every lane of a small device busy.
 const WIDE: u64 = 4096;
 /// The most tallies that a dispatch brings back: 32 MiB of them.
@@ -88,7 +90,7 @@ impl Plan {
                 || index == samples.end
                 || index.is_multiple_of(u64::from(RUN_LENGTH))
         };
-        let fits = counts.len() == region.area() && end <= samples.end;
+        let fits = counts.len() == region.area() && end <= samples.end && end - start <= MOST_BAND;
         if !(in_order && fits && whole(start) && whole(end)) {
             return None;
         }
@@ -166,7 +168,7 @@ impl Plan {
         let pixels = (self.region.area() as u64).min(WIDE);
         let affordable = self.budget / pixels;
         let whole = self.budget / self.region.area() as u64;
-        let wanted = affordable.min(LONG).max(whole).clamp(run, 64 * LONG);
+        let wanted = affordable.min(LONG).max(whole).clamp(run, MOST_BAND);
         let mut end = (start / run)
             .saturating_add(wanted / run)
             .saturating_mul(run);

@@ -8,6 +8,9 @@ use crate::pack::Feature;
 use std::ops::Range;
 use std::time::Duration;
 
+/// A render that a checkpoint says took longer than three hundred years did not.
+const LONGEST_EVER: Duration = Duration::from_secs(10_000_000_000);
+
 /// What has been rendered of a task so far.
 #[derive(Clone, Debug)]
 pub struct Rendering {
@@ -47,7 +50,12 @@ impl Rendering {
     /// What a checkpoint of this task holds; none where it cannot be one of this task.
     pub fn of_checkpoint(task: &Task, checkpoint: Checkpoint) -> Option<Self> {
         let Checkpoint { record, film, .. } = checkpoint;
-        let seconds = |value| Duration::try_from_secs_f64(value).ok();
+        // Times are added to, which must not be more than a clock can hold.
+        let possible = |time: &Duration| *time < LONGEST_EVER;
+        let seconds = |value| {
+            let time = Duration::try_from_secs_f64(value).ok();
+            time.filter(possible)
+        };
         let rendering = Self {
             devices: record.all_devices(),
             setup: seconds(record.seconds.setup)?,
@@ -91,7 +99,8 @@ impl Rendering {
                 self.longest = self.longest.max(traced.took);
                 let end = block.first_sample + u64::from(block.samples);
                 let pixels = self.film.region.area() as u64;
-                let all_have_it = self.film.paths == pixels * (end - self.samples.start);
+                let of_all = pixels.saturating_mul(end - self.samples.start);
+                let all_have_it = self.film.paths == of_all;
                 all_have_it && look::next(&self.samples, end - 1) == end
             }
         }

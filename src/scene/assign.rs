@@ -4,6 +4,7 @@ use super::draft::{Draft, Entry, Group};
 use super::faults::{Faults, Origin};
 use crate::error::{Error, Result};
 use crate::knobs::{Kind, Target, Value, find, nearest, short, unknown};
+use std::collections::{HashMap, HashSet};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -55,63 +56,87 @@ impl Assignment {
 
 /// Lays the assignments over the draft, in order: the last one for a path holds.
 pub(crate) fn apply(assignments: &[Assignment], draft: &mut Draft, faults: &mut Faults<'_>) {
+    let mut target = Over {
+        numbers: numbers(&draft.materials),
+        set: HashSet::new(),
+        draft,
+    };
     for (number, assignment) in assignments.iter().enumerate() {
         let origin = Origin::Flag(number);
-        if let Err((message, note)) = apply_one(assignment, origin.clone(), draft) {
+        if let Err((message, note)) = target.apply(assignment, origin.clone()) {
             faults.add(origin, || (message, note));
         }
     }
 }
 
+/// The draft, with what finds its parts at once: a record may hold a hundred thousand knobs.
+struct Over<'d> {
+    draft: &'d mut Draft,
+    /// Materials by name.
+    numbers: HashMap<String, usize>,
+    /// What is in the draft's list of paths of shapes.
+    set: HashSet<String>,
+}
+
+fn numbers(materials: &[Group]) -> HashMap<String, usize> {
+    let named = materials.iter().enumerate();
+    named
+        .map(|(number, one)| (one.name.clone(), number))
+        .collect()
+}
+
 /// A value, or a reason and perhaps a remedy.
 type Attempt<T> = std::result::Result<T, (String, Option<String>)>;
 
-fn apply_one(assignment: &Assignment, origin: Origin, draft: &mut Draft) -> Attempt<()> {
-    let path = assignment.path.as_str();
-    let target = find(path).ok_or_else(|| (unknown(path), None))?;
-    let knob = target.knob;
-    let refused = |(reason, note)| (format!("`{}` {reason}", short(path)), note);
-    let Some(item) = target.item else {
+impl Over<'_> {
+    fn apply(&mut self, assignment: &Assignment, origin: Origin) -> Attempt<()> {
+        let path = assignment.path.as_str();
+        let target = find(path).ok_or_else(|| (unknown(path), None))?;
+        let knob = target.knob;
+        let refused = |(reason, note)| (format!("`{}` {reason}", short(path)), note);
+        let Some(item) = target.item else {
+            let value = Some(read(target, &assignment.value).map_err(refused)?);
+            self.draft.singles.set(Entry {
+                knob,
+                value,
+                origin,
+            });
+            return Ok(());
+        };
+        let section = knob.section();
+        let group = self.item(section, item)?;
         let value = Some(read(target, &assignment.value).map_err(refused)?);
-        draft.singles.set(Entry {
+        group.set(Entry {
             knob,
             value,
             origin,
         });
-        return Ok(());
-    };
-    let section = knob.section();
-    let group = item_of(draft.list(section), section, item)?;
-    let value = Some(read(target, &assignment.value).map_err(refused)?);
-    group.set(Entry {
-        knob,
-        value,
-        origin,
-    });
-    let path = format!("{section}.{}.{}", group.name, knob.key());
-    if section != "materials" && !draft.set_shapes.contains(&path) {
-        draft.set_shapes.push(path);
+        let path = format!("{section}.{}.{}", group.name, knob.key());
+        if section != "materials" && self.set.insert(path.clone()) {
+            self.draft.set_shapes.push(path);
+        }
+        Ok(())
     }
-    Ok(())
-}
 
-/// The material of this name, or the sphere or box of this number.
-fn item_of<'d>(list: &'d mut [Group], section: &str, item: &str) -> Attempt<&'d mut Group> {
-    let count = list.len();
-    if section != "materials" {
-        let number = item.parse::<usize>().ok().filter(|number| *number < count);
-        return match number.and_then(|number| list.get_mut(number)) {
-            Some(group) => Ok(group),
-            None => Err((no_number(section, item, count), None)),
-        };
-    }
-    match list.iter().position(|group| group.name == item) {
-        Some(number) => Ok(&mut list[number]),
-        None => {
-            let names = list.iter().map(|group| group.name.as_str());
-            let note = nearest(item, names).map(|near| format!("did you mean `{near}`?"));
-            let message = format!("the scene has no material `{}`", short(item));
-            Err((message, note))
+    /// The material of this name, or the sphere or box of this number.
+    fn item(&mut self, section: &str, item: &str) -> Attempt<&mut Group> {
+        let list = self.draft.list(section);
+        let count = list.len();
+        if section != "materials" {
+            let number = item.parse::<usize>().ok().filter(|number| *number < count);
+            return match number.and_then(|number| list.get_mut(number)) {
+                Some(group) => Ok(group),
+                None => Err((no_number(section, item, count), None)),
+            };
+        }
+        match self.numbers.get(item) {
+            Some(number) => Ok(&mut list[*number]),
+            None => {
+                let names = list.iter().map(|group| group.name.as_str());
+                let note = nearest(item, names).map(|near| format!("did you mean `{near}`?"));
+                let message = format!("the scene has no material `{}`", short(item));
+                Err((message, note))
+            }
         }
     }
 }

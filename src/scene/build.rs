@@ -4,7 +4,10 @@
 use super::draft::{Draft, Group};
 use super::faults::{Faults, Origin};
 use super::{Camera, Scene, Source};
-use crate::knobs::{KNOBS, Knob, Preset, RenderKernel, Settings, Value, choice, find, in_section};
+use crate::knobs::{
+    KNOBS, Knob, Preset, RenderKernel, SMALLEST, Settings, Value, choice, find, in_section,
+};
+use glam::DVec3;
 use std::collections::HashMap;
 
 /// Pixels of a picture.
@@ -81,6 +84,11 @@ pub(super) fn stand_in(knob: &Knob, preset: Preset) -> Value {
         Kind::Material => Value::Text("".into()),
         _ => Value::Number(1.0),
     })
+}
+
+/// A vector's direction, if it is long enough to have one: squares of shorter ones vanish even in f64.
+fn direction(vector: DVec3) -> Option<DVec3> {
+    (vector.abs().max_element() >= SMALLEST).then(|| vector.normalize())
 }
 
 impl Builder<'_, '_, '_> {
@@ -213,7 +221,7 @@ impl Builder<'_, '_, '_> {
             self.origin("camera.look_at"),
             self.origin("camera.position"),
         ];
-        let Some(view) = (camera.look_at - camera.position).try_normalize() else {
+        let Some(view) = direction(camera.look_at - camera.position) else {
             let origin = self.blame(&looks);
             self.faults.add(origin, || {
                 (
@@ -223,7 +231,7 @@ impl Builder<'_, '_, '_> {
             });
             return;
         };
-        let Some(up) = camera.up.try_normalize() else {
+        let Some(up) = direction(camera.up) else {
             let origin = self.blame(&[self.origin("camera.up")]);
             self.faults.add(origin, || {
                 (

@@ -1,7 +1,7 @@
 //! All that is wrong with a scene, gathered before anything is said.
 
 use super::assign::Assignment;
-use super::finding::{Finding, Snippet, render};
+use super::finding::{Finding, Snippet, printable, render};
 use crate::error::Error;
 use codespan_reporting::diagnostic::Severity;
 use std::ops::Range;
@@ -188,7 +188,7 @@ fn page(findings: &[Finding], total: usize, name: &str) -> String {
         page += &format!("... and {} more\n\n", total - findings.len());
     }
     let errors = if total == 1 { "error" } else { "errors" };
-    page + &format!("{total} {errors} in {name}")
+    page + &format!("{total} {errors} in {}", printable(name))
 }
 
 /// Why there is no scene.

@@ -42,7 +42,7 @@ impl fmt::Display for Finding {
 /// How a finding is shown.
 pub(crate) fn render(
     severity: Severity,
-    snippet: Option<&Snippet<'_>>,
+    snippet: Option<&Snippet>,
     message: &str,
     note: Option<&str>,
 ) -> String {
@@ -70,8 +70,8 @@ fn word(severity: Severity) -> &'static str {
 /// The part of one line that a finding shows. A line may be as long as the file, so that only a
 /// window around the marked text is kept; and it may hold control characters, which must not reach
 /// a terminal.
-pub(crate) struct Snippet<'a> {
-    name: &'a str,
+pub(crate) struct Snippet {
+    name: String,
     line: usize,
     column: usize,
     /// Characters of the line before the window.
@@ -85,8 +85,8 @@ pub(crate) struct Snippet<'a> {
 const BEFORE: usize = 100;
 const AFTER: usize = 160;
 
-impl<'a> Snippet<'a> {
-    pub(crate) fn new(name: &'a str, text: &str, span: Range<usize>) -> Self {
+impl Snippet {
+    pub(crate) fn new(name: &str, text: &str, span: Range<usize>) -> Self {
         let start = floor(text, span.start);
         let begin = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
         let rest = &text[begin..];
@@ -99,7 +99,8 @@ impl<'a> Snippet<'a> {
         let marked = printable(&text[start..end]);
         let tail = printable(text[end..to].trim_end_matches('\r'));
         Self {
-            name,
+            // A name may come out of an image.
+            name: printable(name),
             line: text.as_bytes()[..begin]
                 .iter()
                 .filter(|byte| **byte == b'\n')
@@ -127,7 +128,7 @@ fn floor(text: &str, byte: usize) -> usize {
         .unwrap_or(0)
 }
 
-fn printable(text: &str) -> String {
+pub(super) fn printable(text: &str) -> String {
     let clean = |c: char| match c {
         '\t' => c,
         c if c.is_control() => '\u{fffd}',
@@ -136,13 +137,13 @@ fn printable(text: &str) -> String {
     text.chars().map(clean).collect()
 }
 
-impl<'a> Files<'a> for Snippet<'_> {
+impl<'a> Files<'a> for Snippet {
     type FileId = ();
     type Name = &'a str;
     type Source = &'a str;
 
     fn name(&'a self, (): ()) -> Result<&'a str, FilesError> {
-        Ok(self.name)
+        Ok(&self.name)
     }
 
     fn source(&'a self, (): ()) -> Result<&'a str, FilesError> {

@@ -22,7 +22,7 @@ pub use build::MOST_BAKED;
 pub use faults::Mistakes;
 pub use finding::Finding;
 pub use load::MOST_BYTES;
-pub use read::MOST_PRIMITIVES;
+pub use read::{MOST_MATERIALS, MOST_PRIMITIVES};
 pub use sweep::{Region, SweepTable};
 
 use crate::knobs::{Scatter, Settings};

@@ -9,6 +9,8 @@ use toml::de::{DeString, DeTable, DeValue};
 
 /// Spheres and boxes together.
 pub const MOST_PRIMITIVES: usize = 1 << 20;
+/// Materials: as many as a device numbers in 16 bits, and few enough to be told apart by name in no time.
+pub const MOST_MATERIALS: usize = 1 << 16;
 /// Longer texts are searched for their first syntax error only: each further one costs memory.
 const RECOVERED: usize = 1 << 20;
 
@@ -145,6 +147,14 @@ impl Reader<'_, '_> {
             );
             return;
         };
+        if table.len() > MOST_MATERIALS {
+            let start = value.span().start;
+            self.faults.add(Origin::File(start..start), || {
+                let message = format!("more than {MOST_MATERIALS} materials");
+                (message, Some("a scene holds 2^16 of them at most".into()))
+            });
+            return;
+        }
         for (key, value) in ordered(table) {
             let name = key.get_ref().to_string();
             if let Some(reason) = bad_name(&name) {
@@ -274,8 +284,8 @@ fn suggestion(names: [Option<&str>; 2]) -> Option<String> {
     }
 }
 
-/// Why a material cannot have this name, if it cannot.
-fn bad_name(name: &str) -> Option<&'static str> {
+/// Why a material or a region cannot have this name, if it cannot.
+pub(super) fn bad_name(name: &str) -> Option<&'static str> {
     if name.is_empty() {
         return Some("must not be empty");
     }

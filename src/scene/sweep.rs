@@ -14,7 +14,7 @@
 //! rounded to whole pixels.
 
 use super::faults::{Faults, Origin};
-use super::read::ordered;
+use super::read::{bad_name, ordered};
 use crate::knobs::{a, nearest, short};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -144,10 +144,23 @@ pub(super) fn read(value: &Spanned<DeValue<'_>>, faults: &mut Faults<'_>) -> Swe
     sweep
 }
 
+/// Each is measured in every picture.
+const MOST_REGIONS: usize = 256;
+
 fn regions(table: &DeTable<'_>, faults: &mut Faults<'_>) -> Vec<Region> {
     let mut regions = Vec::new();
-    for (key, value) in ordered(table) {
+    for (number, (key, value)) in ordered(table).into_iter().enumerate() {
         let name = key.get_ref().to_string();
+        // No command line has to spell it: an equals sign is fine here.
+        if let Some(reason) = bad_name(&name.replace('=', "-")) {
+            let message = format!("a region's name {reason}");
+            faults.add(Origin::File(key.span()), || (message, None));
+        }
+        if number == MOST_REGIONS {
+            let message = format!("more than {MOST_REGIONS} regions");
+            faults.add(Origin::File(key.span()), || (message, None));
+            break;
+        }
         match rect(value) {
             Some(rect) => regions.push(Region { name, rect }),
             None => {

@@ -2,7 +2,13 @@
 
 use super::axis::{Axis, MOST_RUNS};
 use crate::error::{Error, Result};
+use crate::knobs::short;
 use crate::scene::Assignment;
+
+/// Each pair of axes is compared.
+const MOST_AXES: usize = 1000;
+/// Values of all runs together, each of which is kept by every run: a few hundred megabytes of them.
+const MOST_VALUES: usize = 4 * MOST_RUNS;
 
 /// Seeds that follow each other are far apart in everything they draw.
 const SEED: &str = "render.seed";
@@ -31,7 +37,7 @@ impl Grid {
     ///
     /// # Errors
     /// [`Error::Usage`] for axes in step that have different lengths, a knob twice, a seed both as
-    /// an axis and by repeats, or too many runs.
+    /// an axis and by repeats, or too many runs or values.
     pub fn count(&self) -> Result<usize> {
         self.check()?;
         let points = if self.zip {
@@ -44,7 +50,17 @@ impl Grid {
                 .ok_or_else(too_many)?
         };
         let runs = points.checked_mul(self.repeats() as usize);
-        runs.filter(|runs| *runs <= MOST_RUNS).ok_or_else(too_many)
+        let runs = runs
+            .filter(|runs| *runs <= MOST_RUNS)
+            .ok_or_else(too_many)?;
+        // At most a thousand times a million.
+        match runs * self.axes.len() {
+            0..=MOST_VALUES => Ok(runs),
+            values => Err(Error::Usage(format!(
+                "{runs} runs of {} swept knobs have {values} values: over {MOST_VALUES}",
+                self.axes.len()
+            ))),
+        }
     }
 
     /// The axes that have several values; all of them where none has.
@@ -60,12 +76,18 @@ impl Grid {
     }
 
     fn check(&self) -> Result<()> {
+        if self.axes.len() > MOST_AXES {
+            return Err(Error::Usage(format!("over {MOST_AXES} knobs are swept")));
+        }
         for (number, axis) in self.axes.iter().enumerate() {
             if self.axes[..number]
                 .iter()
                 .any(|other| other.path == axis.path)
             {
-                return Err(Error::Usage(format!("{} is swept twice", axis.path)));
+                return Err(Error::Usage(format!(
+                    "{} is swept twice",
+                    short(&axis.path)
+                )));
             }
             if axis.path == SEED && self.seeds > 1 {
                 return Err(Error::Usage(format!(
@@ -78,7 +100,7 @@ impl Grid {
             let list: Vec<String> = self
                 .axes
                 .iter()
-                .map(|axis| format!("{} has {}", axis.path, axis.values.len()))
+                .map(|axis| format!("{} has {}", short(&axis.path), axis.values.len()))
                 .collect();
             return Err(Error::Usage(format!(
                 "--zip takes the values in step, so all must have as many: {}",
@@ -214,5 +236,18 @@ mod tests {
         assert!(refused(&["a=1,2", "a=3"], false, 1).contains("twice"));
         assert!(refused(&["render.seed=1,2"], false, 3).contains("one of the two"));
         assert!(refused(&["a=1..1000", "b=1..1000", "c=1..2"], false, 1).contains("over"));
+        // Made as points, these would need 80 gigabytes, or a day of comparing.
+        let ones: Vec<String> = (0..2000).map(|number| format!("k{number}=1")).collect();
+        let mut axes: Vec<&str> = ones.iter().map(String::as_str).collect();
+        assert!(refused(&axes, false, 1).contains("over 1000 knobs"));
+        axes.truncate(5);
+        assert!(refused(&axes, false, 1_000_000).contains("over 4000000"));
+        axes.truncate(4);
+        let grid = Grid {
+            axes: axes.iter().map(|text| axis(text)).collect(),
+            zip: false,
+            seeds: 1_000_000,
+        };
+        assert_eq!(grid.count().unwrap(), 1_000_000);
     }
 }

@@ -1,9 +1,9 @@
 //! Files that are cut short, damaged or made to do harm: an error each time, never a panic.
 
-use super::craft::attribute;
-use super::sample::{Folder, Random, picture, write};
+use super::craft::{attribute, exr};
+use super::sample::{Folder, Random, device, picture, write};
 use lampray::Error;
-use lampray::film::{read_exr, read_record};
+use lampray::film::{Checkpoint, RasterFile, merge, read_exr, read_record};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -205,6 +205,99 @@ fn records_that_are_not_records() {
             Err(Error::Data { .. })
         ));
     }
+}
+
+/// Names in files may be long, and may hold what moves a terminal's cursor.
+#[test]
+fn names_that_are_made_for_a_terminal() {
+    let folder = Folder::new();
+    let path = folder.join("a.exr");
+    let plain = |words: &str| {
+        assert!(words.len() < 1000, "{} bytes", words.len());
+        assert!(!words.contains(char::is_control), "{words:?}");
+    };
+    let bytes = exr(
+        0,
+        [0, 0, 0, 0],
+        0,
+        &[("\x1b[2J", 2), ("\x07", 2), ("c", 2)],
+        &[],
+    );
+    fs::write(&path, bytes).unwrap();
+    let error = RasterFile::open(&path).unwrap_err().to_string();
+    assert!(error.contains("[2J"), "{error}");
+    plain(&error);
+
+    let (mut one, mut other) = (picture(0..4), picture(4..8));
+    one.record.scene_hash = "\u{1b}[2J".repeat(1000);
+    other.record.device.name = "\u{1b}]0;x\u{7}".repeat(1000);
+    for (number, picture) in [&one, &picture(0..4), &other].into_iter().enumerate() {
+        write(picture, &folder.join(format!("{number}.exr")));
+    }
+    for pair in [[0, 2], [1, 2]] {
+        let files = pair.map(|number| folder.join(format!("{number}.exr")));
+        let error = merge(&files, false).unwrap_err().to_string();
+        plain(&error.replace(&*folder.path().to_string_lossy(), ""));
+    }
+}
+
+/// A merged picture of a million devices would compare each with each.
+#[test]
+fn records_of_too_many_devices() {
+    let folder = Folder::new();
+    let path = folder.join("a.exr");
+    for (count, taken) in [(4096, true), (4097, false)] {
+        let mut picture = picture(0..4);
+        picture.record.devices = vec![device("d"); count];
+        write(&picture, &path);
+        assert_eq!(read(&path)[1], taken, "{count}");
+    }
+}
+
+/// A checkpoint whose checksum is right and whose head is not.
+fn checkpoint(change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
+    let mut record = serde_json::to_value(picture(0..4).record).unwrap();
+    record["paths"] = 8.into();
+    let mut head = serde_json::json!({
+        "record": record, "samples": [0, 4], "region": [0, 0, 2, 1], "first_non_finite": null,
+    });
+    change(&mut head);
+    let head = head.to_string();
+    let sums = [0_u8; 2 * 48];
+    let counts = [4_u64.to_le_bytes(); 2].concat();
+    let length = (head.len() as u64).to_le_bytes();
+    let content = [&b"lampray1"[..], &length, head.as_bytes(), &sums, &counts].concat();
+    [&content[..], blake3::hash(&content).as_bytes()].concat()
+}
+
+/// What its file holds is all that there is memory for.
+#[test]
+fn checkpoints_of_pixels_that_are_not_there() {
+    let folder = Folder::new();
+    let path = folder.join("c");
+    let reason = |bytes: &[u8]| {
+        fs::write(&path, bytes).unwrap();
+        match Checkpoint::read(&path) {
+            Ok(checkpoint) => {
+                assert_eq!(checkpoint.film.paths, 8);
+                "taken".to_string()
+            }
+            Err(error) => error.to_string(),
+        }
+    };
+    assert_eq!(reason(&checkpoint(|_| {})), "taken");
+    for (region, expected) in [
+        ([5, 0, 4, 1], "of no pixels"),
+        ([0, 9, 2, 8], "of no pixels"),
+        ([0, 0, 0, 0], "of no pixels"),
+        ([0, 0, u32::MAX, u32::MAX], "cut short"),
+        ([0, 0, 1, 1], "cut short"),
+    ] {
+        let found = reason(&checkpoint(|head| head["region"] = region.to_vec().into()));
+        assert!(found.contains(expected), "{region:?}: {found}");
+    }
+    let found = reason(&checkpoint(|head| head["record"]["paths"] = 9.into()));
+    assert!(found.contains("no sums"), "{found}");
 }
 
 /// A digit that changed would still be a record; the checksum tells.

@@ -4,7 +4,7 @@ mod parse;
 mod report;
 
 use super::options::{DeviceOptions, KnobOptions};
-use super::{Output, note, print};
+use super::{Output, note, plain, print};
 use crate::compare::flip;
 use crate::compare::verdict::{self, Outcome, Relation, Terms};
 use crate::compare::{
@@ -205,7 +205,7 @@ impl Command {
             };
             print_json(&files)?;
         } else {
-            print(&report(&comparison, reference, test))?;
+            print(&plain(&report(&comparison, reference, test)))?;
         }
         match self.bless {
             Some(when) if when == Bless::All || code == DIFFERENT => {

@@ -5,6 +5,7 @@ use super::words::spelled;
 use crate::device::Device;
 use crate::error::{Result, counted};
 use crate::film::Stop;
+use crate::pack::Rect;
 use crate::render::{self, Task};
 use crate::scene::Scene;
 use crate::sweep::Experiment;
@@ -20,8 +21,11 @@ pub(super) fn foretell(
 ) -> Result<()> {
     let runs = &experiment.plan.runs;
     let references = experiment.references(&|_| true)?;
-    let paths: u64 = runs.iter().map(|run| run.paths).sum();
-    let more: u64 = references.iter().map(|reference| reference.paths).sum();
+    // A million runs of the largest picture have more than u64 counts.
+    let all = |sum: u64, paths| sum.saturating_add(paths);
+    let paths = runs.iter().map(|run| run.paths).fold(0, all);
+    let more = references.iter().map(|reference| reference.paths);
+    let more = more.fold(0, all);
     let mut seconds = 0.0;
     if let Some(run) = runs.first() {
         let scene = experiment.base.scene(&run.point)?;
@@ -37,7 +41,7 @@ pub(super) fn foretell(
         });
         return print(&format!("{told}\n"));
     }
-    let about = spelled(Duration::from_secs_f64(seconds));
+    let about = spelled(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
     let own = match references.len() {
         0 => String::new(),
         1 => format!(", 1 reference of {more} paths"),
@@ -50,10 +54,23 @@ pub(super) fn foretell(
     ))
 }
 
+/// The middle of a picture, which may be too large to be kept for a guess.
+fn middle(whole: Rect) -> Rect {
+    const SIDE: u32 = 256;
+    let part = |first: u32, end: u32| {
+        let spare = (end - first).saturating_sub(SIDE) / 2;
+        [first + spare, (first + spare + SIDE).min(end)]
+    };
+    let [x0, x1] = part(whole.x0, whole.x1);
+    let [y0, y1] = part(whole.y0, whole.y1);
+    Rect { x0, y0, x1, y1 }
+}
+
 /// Seconds that a path takes, by a small part of a render: the first time it is compiled, too.
 fn time_a_path(scene: &Scene, device: &mut dyn Device) -> Result<f64> {
     const LONGEST: Duration = Duration::from_secs(2);
     let mut task = Task::one_of_many(scene);
+    task.region = middle(task.region);
     task.samples.end = task.samples.end.min(4);
     let mut pilot = || {
         let started = Instant::now();

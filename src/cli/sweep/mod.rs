@@ -166,10 +166,7 @@ impl Command {
             &self.set
         };
         Ok(Grid {
-            axes: set
-                .iter()
-                .map(|text| Axis::parse(text))
-                .collect::<Result<_>>()?,
+            axes: Axis::parse_all(set)?,
             zip: self.zip || (self.set.is_empty() && wanted.zip),
             seeds: self.seeds.unwrap_or(wanted.seeds).max(1),
         })

@@ -2,6 +2,7 @@
 
 use super::channels::{MEAN, SAMPLES, VARIANCE};
 use super::part::Part;
+use crate::knobs::short;
 
 /// Luminance alone.
 const GREY: &str = "Y";
@@ -68,13 +69,15 @@ fn best_layer(part: &Part) -> Option<&str> {
         .min_by_key(|layer| (!combined(layer), *layer))
 }
 
-/// "channels a, b and 4 more"; `None` for no name.
+/// "channels a, b and 4 more"; `None` for no name. Names may be long, or hold codes for a terminal.
 pub(super) fn listed(what: &str, names: &[String]) -> Option<String> {
-    let text = match names {
+    let first: Vec<String> = names.iter().take(2).map(|name| short(name)).collect();
+    let more = names.len().saturating_sub(2);
+    let text = match first.as_slice() {
         [] => return None,
         [one] => format!("{what} {one}"),
-        [one, other] => format!("{what}s {one} and {other}"),
-        [one, other, rest @ ..] => format!("{what}s {one}, {other} and {} more", rest.len()),
+        [one, other, ..] if more == 0 => format!("{what}s {one} and {other}"),
+        [one, other, ..] => format!("{what}s {one}, {other} and {more} more"),
     };
     Some(text)
 }

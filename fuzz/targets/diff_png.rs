@@ -1,0 +1,4 @@
+#![no_main]
+#[path = "../bodies/mod.rs"]
+mod bodies;
+bodies::target!(diff_png);
