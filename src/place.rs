@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 
 /// What a file's bytes are written into.
 pub trait Sink: Write + Seek {}
@@ -19,9 +19,17 @@ pub struct Place {
     path: PathBuf,
     /// Where the symbolic links lead.
     destination: PathBuf,
-    /// A file beside the destination, to be renamed over it; none for a device or a pipe, which a
-    /// rename would destroy.
-    temporary: Option<NamedTempFile>,
+    /// A file in the destination's folder, to be put in its place; none for a device or a pipe, which that
+    /// would destroy.
+    temporary: Option<Temporary>,
+}
+
+/// A file that is being written.
+#[derive(Debug)]
+struct Temporary {
+    file: File,
+    /// None where the system lets a file have no name: it then goes with the program, however that ends.
+    name: Option<TempPath>,
 }
 
 impl Place {
@@ -56,7 +64,7 @@ impl Place {
         let temporary = if stream {
             None
         } else {
-            Some(temporary_beside(&destination)?)
+            Some(Temporary::new(folder(&destination))?)
         };
         Ok(Self {
             path: path.into(),
@@ -124,44 +132,136 @@ impl Place {
     }
 }
 
-/// A file beside the target, readable for whom the umask says, as any program's output: temporary
-/// files are otherwise kept from everyone else. Its name is short, whatever the target's.
-fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
-    let create = |path: &Path| {
-        OpenOptions::new()
-            .write(true)
-            .read(true)
-            .create_new(true)
-            .open(path)
-    };
-    tempfile::Builder::new()
-        .prefix(".lampray-")
-        .suffix(".tmp")
-        .make_in(folder(target), create)
+impl Temporary {
+    /// A file in `folder`, readable for whom the umask says, as any program's output: temporary files are
+    /// otherwise kept from everyone else.
+    fn new(folder: &Path) -> io::Result<Self> {
+        match nameless::create(folder) {
+            Some(file) => Ok(Self { file, name: None }),
+            None => Self::named(folder),
+        }
+    }
+
+    fn named(folder: &Path) -> io::Result<Self> {
+        let create = |path: &Path| {
+            OpenOptions::new()
+                .write(true)
+                .read(true)
+                .create_new(true)
+                .open(path)
+        };
+        let (file, name) = hidden().make_in(folder, create)?.into_parts();
+        Ok(Self {
+            file,
+            name: Some(name),
+        })
+    }
+
+    /// Puts the file, which is whole and on the disk, where the target is or is to be.
+    fn put(self, target: &Path) -> io::Result<()> {
+        let rename = |name: TempPath| name.persist(target).map_err(|failure| failure.error);
+        let Self { file, name } = self;
+        if let Some(name) = name {
+            return rename(name);
+        }
+        match nameless::link(&file, target) {
+            Ok(()) => return Ok(()),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(_) => return rename(copy(file, folder(target))?),
+        }
+        // What is there cannot be replaced but by a rename, for which the file needs a name.
+        let link = |path: &Path| nameless::link(&file, path);
+        let (_, name) = hidden().make_in(folder(target), link)?.into_parts();
+        rename(name)
+    }
 }
 
-/// Renames only what is whole and on the disk: also after a power failure a reader sees one of both.
+/// Names of files that are being written: short, whatever the target's.
+fn hidden() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".lampray-").suffix(".tmp");
+    builder
+}
+
+/// For systems that let a file have no name and then refuse to give it one.
+fn copy(mut from: File, folder: &Path) -> io::Result<TempPath> {
+    let Temporary { mut file, name } = Temporary::named(folder)?;
+    from.rewind()?;
+    io::copy(&mut from, &mut file)?;
+    file.set_permissions(from.metadata()?.permissions())?;
+    file.sync_all()?;
+    name.ok_or_else(|| io::Error::other("a named file has no name"))
+}
+
+/// Files without a name, which no folder holds: whatever kills the program, nothing of them is left.
+#[cfg(target_os = "linux")]
+mod nameless {
+    use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, open};
+    use std::fs::File;
+    use std::io;
+    use std::os::fd::AsRawFd;
+    use std::path::{Path, PathBuf};
+
+    /// A file in `folder`, with the mode that the umask gives; none where the file system has no such files, or
+    /// there would be no way to give it a name.
+    pub(super) fn create(folder: &Path) -> Option<File> {
+        let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+        let file = File::from(open(folder, flags, Mode::from_raw_mode(0o666)).ok()?);
+        way(&file).is_symlink().then_some(file)
+    }
+
+    /// Gives a file its name, which nothing may have yet.
+    pub(super) fn link(file: &File, name: &Path) -> io::Result<()> {
+        Ok(linkat(CWD, way(file), CWD, name, AtFlags::SYMLINK_FOLLOW)?)
+    }
+
+    /// The only way to such a file that is open to everybody.
+    fn way(file: &File) -> PathBuf {
+        format!("/proc/self/fd/{}", file.as_raw_fd()).into()
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+mod nameless {
+    use std::fs::File;
+    use std::io;
+    use std::path::Path;
+
+    pub(super) fn create(_folder: &Path) -> Option<File> {
+        None
+    }
+
+    pub(super) fn link(_file: &File, _name: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+}
+
+/// Puts in place only what is whole and on the disk: also after a power failure a reader sees one of both.
 fn write_file(
-    temporary: NamedTempFile,
+    temporary: Temporary,
     target: &Path,
     keep: Option<&Path>,
     fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut writer = BufWriter::with_capacity(1 << 16, temporary.as_file());
+    let mut writer = BufWriter::with_capacity(1 << 16, &temporary.file);
     fill(&mut writer)?;
     writer.flush()?;
     drop(writer);
     if let Ok(old) = fs::metadata(target) {
         // A file that was kept from others stays so. Not every file system has modes.
-        let _ = temporary.as_file().set_permissions(old.permissions());
+        let _ = temporary.file.set_permissions(old.permissions());
     }
-    temporary.as_file().sync_all()?;
-    if let Some(keep) = keep
-        && target.exists()
-    {
-        fs::rename(target, keep)?;
+    temporary.file.sync_all()?;
+    match keep.filter(|_| target.exists()) {
+        None => temporary.put(target)?,
+        Some(keep) => {
+            fs::rename(target, keep)?;
+            if let Err(error) = temporary.put(target) {
+                fs::rename(keep, target)?;
+                return Err(error);
+            }
+        }
     }
-    temporary.persist(target).map_err(|failure| failure.error)?;
     sync_folder(folder(target));
     Ok(())
 }
@@ -200,7 +300,10 @@ fn is_pipe(_metadata: &Metadata) -> bool {
 }
 
 /// Follows symbolic links from file to file, to one that need not exist.
-fn follow(path: &Path) -> io::Result<PathBuf> {
+///
+/// # Errors
+/// Links in a circle, or one that cannot be read.
+pub fn follow(path: &Path) -> io::Result<PathBuf> {
     // As many as Linux follows.
     const LINKS: usize = 40;
     let mut path = path.to_path_buf();
@@ -228,5 +331,71 @@ fn folder(file: &Path) -> &Path {
 fn sync_folder(folder: &Path) {
     if cfg!(unix) {
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
+        let names = fs::read_dir(folder).unwrap().map(name);
+        let mut names: Vec<_> = names.map(|name| name.into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// Writes `text` by way of a temporary file, keeping what was there as `old`.
+    fn write(temporary: Temporary, folder: &Path, text: &str) -> io::Result<()> {
+        let fill = |sink: &mut dyn Sink| sink.write_all(text.as_bytes());
+        write_file(
+            temporary,
+            &folder.join("a"),
+            Some(&folder.join("old")),
+            fill,
+        )
+    }
+
+    /// Both ways of holding a file give the same, of which one is that of other systems.
+    #[test]
+    fn files_with_and_without_a_name_end_alike() {
+        for hold in [Temporary::new, Temporary::named] {
+            let folder = tempfile::tempdir().unwrap();
+            let at = folder.path();
+            write(hold(at).unwrap(), at, "one").unwrap();
+            assert_eq!(names(at), ["a"]);
+            write(hold(at).unwrap(), at, "two").unwrap();
+            assert_eq!(names(at), ["a", "old"]);
+            assert_eq!(fs::read(at.join("a")).unwrap(), b"two");
+            assert_eq!(fs::read(at.join("old")).unwrap(), b"one");
+
+            let full = |_: &mut dyn Sink| Err(io::ErrorKind::StorageFull.into());
+            let outcome = write_file(hold(at).unwrap(), &at.join("a"), None, full);
+            assert_eq!(outcome.unwrap_err().kind(), io::ErrorKind::StorageFull);
+            assert_eq!(names(at), ["a", "old"]);
+            assert_eq!(fs::read(at.join("a")).unwrap(), b"two");
+        }
+    }
+
+    #[test]
+    fn what_gets_no_name_is_copied() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(b"whole").unwrap();
+        let copied = copy(file, folder.path()).unwrap();
+        assert_eq!(fs::read(&copied).unwrap(), b"whole");
+        drop(copied);
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_that_is_being_written_has_no_name() {
+        // Of all the file systems that this is said to work on, the one that every machine has.
+        let folder = tempfile::tempdir_in("/dev/shm").unwrap();
+        let temporary = Temporary::new(folder.path()).unwrap();
+        assert!(temporary.name.is_none(), "{temporary:?}");
+        assert!(names(folder.path()).is_empty());
     }
 }
