@@ -2,11 +2,13 @@
 //! fails at once; it is filled when the work is done, and a reader sees the old file or the whole
 //! new one.
 
+mod temporary;
+
 use crate::error::{Error, Result};
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
-use tempfile::TempPath;
+use temporary::Temporary;
 
 /// What a file's bytes are written into.
 pub trait Sink: Write + Seek {}
@@ -22,14 +24,6 @@ pub struct Place {
     /// A file in the destination's folder, to be put in its place; none for a device or a pipe, which that
     /// would destroy.
     temporary: Option<Temporary>,
-}
-
-/// A file that is being written.
-#[derive(Debug)]
-struct Temporary {
-    file: File,
-    /// None where the system lets a file have no name: it then goes with the program, however that ends.
-    name: Option<TempPath>,
 }
 
 impl Place {
@@ -129,110 +123,6 @@ impl Place {
                 .map_err(|source| Error::Write { path, source }),
             None => write_stream(&path, fill).map_err(|source| Error::Stream { path, source }),
         }
-    }
-}
-
-impl Temporary {
-    /// A file in `folder`, readable for whom the umask says, as any program's output: temporary files are
-    /// otherwise kept from everyone else.
-    fn new(folder: &Path) -> io::Result<Self> {
-        match nameless::create(folder) {
-            Some(file) => Ok(Self { file, name: None }),
-            None => Self::named(folder),
-        }
-    }
-
-    fn named(folder: &Path) -> io::Result<Self> {
-        let create = |path: &Path| {
-            OpenOptions::new()
-                .write(true)
-                .read(true)
-                .create_new(true)
-                .open(path)
-        };
-        let (file, name) = hidden().make_in(folder, create)?.into_parts();
-        Ok(Self {
-            file,
-            name: Some(name),
-        })
-    }
-
-    /// Puts the file, which is whole and on the disk, where the target is or is to be.
-    fn put(self, target: &Path) -> io::Result<()> {
-        let rename = |name: TempPath| name.persist(target).map_err(|failure| failure.error);
-        let Self { file, name } = self;
-        if let Some(name) = name {
-            return rename(name);
-        }
-        match nameless::link(&file, target) {
-            Ok(()) => return Ok(()),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            Err(_) => return rename(copy(file, folder(target))?),
-        }
-        // What is there cannot be replaced but by a rename, for which the file needs a name.
-        let link = |path: &Path| nameless::link(&file, path);
-        let (_, name) = hidden().make_in(folder(target), link)?.into_parts();
-        rename(name)
-    }
-}
-
-/// Names of files that are being written: short, whatever the target's.
-fn hidden() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lampray-").suffix(".tmp");
-    builder
-}
-
-/// For systems that let a file have no name and then refuse to give it one.
-fn copy(mut from: File, folder: &Path) -> io::Result<TempPath> {
-    let Temporary { mut file, name } = Temporary::named(folder)?;
-    from.rewind()?;
-    io::copy(&mut from, &mut file)?;
-    file.set_permissions(from.metadata()?.permissions())?;
-    file.sync_all()?;
-    name.ok_or_else(|| io::Error::other("a named file has no name"))
-}
-
-/// Files without a name, which no folder holds: whatever kills the program, nothing of them is left.
-#[cfg(target_os = "linux")]
-mod nameless {
-    use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat, open};
-    use std::fs::File;
-    use std::io;
-    use std::os::fd::AsRawFd;
-    use std::path::{Path, PathBuf};
-
-    /// A file in `folder`, with the mode that the umask gives; none where the file system has no such files, or
-    /// there would be no way to give it a name.
-    pub(super) fn create(folder: &Path) -> Option<File> {
-        let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
-        let file = File::from(open(folder, flags, Mode::from_raw_mode(0o666)).ok()?);
-        way(&file).is_symlink().then_some(file)
-    }
-
-    /// Gives a file its name, which nothing may have yet.
-    pub(super) fn link(file: &File, name: &Path) -> io::Result<()> {
-        Ok(linkat(CWD, way(file), CWD, name, AtFlags::SYMLINK_FOLLOW)?)
-    }
-
-    /// The only way to such a file that is open to everybody.
-    fn way(file: &File) -> PathBuf {
-        format!("/proc/self/fd/{}", file.as_raw_fd()).into()
-    }
-}
-
-#[cfg(not(target_os = "linux"))]
-mod nameless {
-    use std::fs::File;
-    use std::io;
-    use std::path::Path;
-
-    pub(super) fn create(_folder: &Path) -> Option<File> {
-        None
-    }
-
-    pub(super) fn link(_file: &File, _name: &Path) -> io::Result<()> {
-        Err(io::ErrorKind::Unsupported.into())
     }
 }
 
@@ -376,26 +266,5 @@ mod tests {
             assert_eq!(names(at), ["a", "old"]);
             assert_eq!(fs::read(at.join("a")).unwrap(), b"two");
         }
-    }
-
-    #[test]
-    fn what_gets_no_name_is_copied() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut file = tempfile::tempfile().unwrap();
-        file.write_all(b"whole").unwrap();
-        let copied = copy(file, folder.path()).unwrap();
-        assert_eq!(fs::read(&copied).unwrap(), b"whole");
-        drop(copied);
-        assert!(names(folder.path()).is_empty());
-    }
-
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn a_file_that_is_being_written_has_no_name() {
-        // Of all the file systems that this is said to work on, the one that every machine has.
-        let folder = tempfile::tempdir_in("/dev/shm").unwrap();
-        let temporary = Temporary::new(folder.path()).unwrap();
-        assert!(temporary.name.is_none(), "{temporary:?}");
-        assert!(names(folder.path()).is_empty());
     }
 }

@@ -8,9 +8,11 @@ mod support;
 mod faults {
     mod devices;
     mod files;
+    mod full;
     mod memory;
     mod resume;
     mod stage;
     mod stops;
+    mod streams;
     mod table;
 }

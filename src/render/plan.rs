@@ -91,7 +91,7 @@ impl Plan {
         })
     }
 
-    /// The plan with bands that end wherever [`look::next`] says.
+    /// The plan with bands that end wherever somebody looks at the error.
     pub fn with_looks(self) -> Self {
         Self {
             looks: true,

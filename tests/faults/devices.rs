@@ -1,6 +1,6 @@
 //! Devices that are lost, and those that are not there.
 
-use super::stage::{ENDLESS, GRAPHICS, KEPT, LONG, RESUMED, SHORT, Stage};
+use super::stage::{ENDLESS, GRAPHICS, KEPT, LONG, RESUMED, SAVED, SHORT, Stage};
 use super::table::Left::{Checkpoint, Old, Part, Same, Whole};
 use super::table::{Row, hold};
 use lampray::gpu::adapters;
@@ -27,8 +27,10 @@ const LOST: &[Row] = &[
     Row {
         done: "it is lost, and its successor at once; `--device` names it",
         act: |at| {
-            at.old("o.exr")
-                .run_with(&[(LOSE, "20,0")], &[ENDLESS, GRAPHICS, SAVED])
+            at.old("o.exr").run_with(
+                &[(LOSE, "20,0")],
+                &[ENDLESS, GRAPHICS, SAVED, &["--time", "60"]],
+            )
         },
         exit: 75,
         left: &[Part("o.exr"), Checkpoint("c")],
@@ -127,9 +129,6 @@ const LOST: &[Row] = &[
         says: "",
     },
 ];
-
-/// No checkpoint but the one at the end.
-const SAVED: &[&str] = &["--checkpoint", "c"];
 
 const MISSING: &[Row] = &[
     Row {

@@ -1,116 +1,15 @@
-//! Outputs that cannot be written, or must not be replaced.
+//! Outputs that cannot be created, or are there already.
 
-use super::stage::{CPU, LONG, SHORT, Stage, fifo, words};
-use super::table::Left::{Checkpoint, Else, Old, Same, Whole};
+use super::stage::{CPU, LONG, SAVED, SHORT, Stage};
+use super::table::Left::{Else, Old, Same, Whole};
 use super::table::{Row, hold};
 use lampray::film::read_exr;
 use std::ffi::OsStr;
-use std::fs::{self, File, Permissions};
-use std::io::Write;
+use std::fs::{self, Permissions};
 use std::os::unix::ffi::OsStrExt;
-use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
-use std::process::{Output, Stdio};
-
-/// Large enough for a limit of 4 KiB.
-const LARGE: &[&str] = &["--width", "100", "--height", "100"];
-const SAVED: &[&str] = &["--checkpoint", "c"];
-
-const FULL: &[Row] = &[
-    Row {
-        done: "no file may grow beyond 4 KiB (`ulimit -f`)",
-        act: |at| {
-            at.old("o.exr")
-                .run_limited("ulimit -f 8", &[SHORT, CPU, LARGE])
-        },
-        exit: 74,
-        left: &[Old("o.exr")],
-        says: "the file that was there before, if any, is untouched",
-    },
-    Row {
-        done: "the disk is full (`/dev/full`), the checkpoint is elsewhere",
-        act: |at| {
-            symlink("/dev/full", at.join("full.exr")).expect("a link");
-            at.run(&[LONG, CPU, SAVED, &["-o", "full.exr"]])
-        },
-        exit: 74,
-        // The other output is written all the same.
-        left: &[
-            Whole("o.exr"),
-            Checkpoint("c"),
-            Else("full.exr", "the link to the device"),
-        ],
-        says: "No space left on device",
-    },
-    Row {
-        done: "then `--resume` with room for the picture",
-        act: |at| {
-            symlink("/dev/full", at.join("o.exr")).expect("a link");
-            let full = at.run(&[LONG, CPU, SAVED]);
-            assert_eq!(full.status.code(), Some(74), "{full:?}");
-            fs::remove_file(at.join("o.exr")).expect("the link");
-            at.run(&[LONG, CPU, SAVED, &["--resume"]])
-        },
-        exit: 0,
-        left: &[Same("o.exr")],
-        says: "",
-    },
-    Row {
-        done: "standard output is full and wanted the record",
-        act: |at| {
-            let full = File::options()
-                .write(true)
-                .open("/dev/full")
-                .expect("a device");
-            let mut command = at.command(&[SHORT, CPU, &["--json"]]);
-            command.stdout(full).output().expect("the program runs")
-        },
-        exit: 74,
-        left: &[Whole("o.exr")],
-        says: "cannot write to standard output",
-    },
-];
-
-/// A file system of its own, which only some machines let a test mount.
-const TMPFS: &[Row] = &[Row {
-    done: "the picture's file system is full, the checkpoint is on another",
-    act: |at| {
-        let output = in_tmpfs(
-            at,
-            "lampray render s.toml --device cpu --spp 64 --width 200 --height 200 \
-             -o full/o.exr --checkpoint c; code=$?; [ \"$(cat full/o.exr)\" = old ] || exit 1; \
-             [ \"$(ls -A full)\" = o.exr ] || exit 2; exit $code",
-        );
-        assert!(
-            words(&output).contains("--resume goes on from"),
-            "{output:?}"
-        );
-        output
-    },
-    exit: 74,
-    left: &[
-        Checkpoint("c"),
-        Else("full", "in it the old picture and nothing else"),
-    ],
-    says: "No space left on device",
-}];
-
-/// Runs a script with a file system of 64 KiB at `full`, an old picture on it.
-fn in_tmpfs(at: &Stage, script: &str) -> Output {
-    fs::create_dir_all(at.join("full")).expect("a folder");
-    let mount = format!(
-        "mount -t tmpfs -o size=64k tmpfs full || exit 99; printf old >full/o.exr; {script}"
-    );
-    // The name of the function is not known to the shell inside.
-    let inner = format!("lampray() {{ \"$LAMPRAY\" \"$@\"; }}; {mount}");
-    let mut command = at.script("exec unshare --mount $USERS sh -c \"$INNER\"");
-    let users = match super::stage::is_root() {
-        true => "",
-        false => "--user --map-root-user",
-    };
-    let command = command.env("USERS", users).env("INNER", inner);
-    command.output().expect("sh runs")
-}
+use std::process::Output;
 
 const PLACES: &[Row] = &[
     Row {
@@ -229,98 +128,6 @@ const PLACES: &[Row] = &[
     },
 ];
 
-const STREAMS: &[Row] = &[
-    Row {
-        done: "the output is `/dev/null`",
-        act: |at| {
-            let output = at.run(&[&SHORT[..2], CPU, &["-o", "/dev/null"]]);
-            let kind = fs::metadata("/dev/null").expect("a device").file_type();
-            assert!(kind.is_char_device());
-            output
-        },
-        exit: 0,
-        left: &[],
-        says: "",
-    },
-    Row {
-        done: "the output is `/dev/stdout`, a pipe",
-        act: |at| {
-            let output = at.run(&[&SHORT[..2], CPU, &["-o", "/dev/stdout"]]);
-            assert!(output.stdout.starts_with(b"\x89PNG"), "{output:?}");
-            output
-        },
-        exit: 0,
-        left: &[],
-        says: "",
-    },
-    Row {
-        done: "the output is `/dev/stdout`, the end of a file",
-        act: |at| {
-            let file = File::options()
-                .append(true)
-                .create(true)
-                .open(at.join("log"));
-            let mut file = file.expect("a file");
-            file.write_all(b"old").expect("a line");
-            let mut command = at.command(&[&SHORT[..2], CPU, &["-o", "/dev/stdout"]]);
-            let output = command.stdout(file).stderr(Stdio::piped()).output();
-            assert!(at.read("log").starts_with(b"old\x89PNG"));
-            output.expect("the program runs")
-        },
-        exit: 0,
-        left: &[Else("log", "the file, the picture behind what it held")],
-        says: "",
-    },
-    Row {
-        done: "the output is a FIFO",
-        act: |at| {
-            fifo(&at.join("o.exr"));
-            let path = at.join("o.exr");
-            let reader = std::thread::spawn(move || fs::read(path));
-            let output = at.run(&[SHORT, CPU]);
-            let read = reader.join().expect("a reader").expect("a pipe");
-            assert!(
-                fs::metadata(at.join("o.exr"))
-                    .expect("a pipe")
-                    .file_type()
-                    .is_fifo()
-            );
-            fs::write(at.join("read.exr"), read).expect("what was read");
-            output
-        },
-        exit: 0,
-        left: &[Else("o.exr", "the FIFO"), Whole("read.exr")],
-        says: "",
-    },
-    Row {
-        done: "SIGHUP while the output is `/dev/stdout`: its reader gets one picture",
-        act: |at| {
-            let file = File::create(at.join("log")).expect("a file");
-            let parts: &[&[&str]] = &[
-                &["render", "s.toml", "--spp", "8000"],
-                CPU,
-                &["-o", "/dev/stdout", "-o", "o.exr"],
-            ];
-            let mut command = at.command(parts);
-            let child = super::stage::Running::start(command.stdout(file));
-            std::thread::sleep(std::time::Duration::from_millis(300));
-            super::stage::send("HUP", &child);
-            at.wait_for("o.exr");
-            let output = child.end();
-            let pictures = at
-                .read("log")
-                .windows(8)
-                .filter(|b| *b == b"\x89PNG\r\n\x1a\n")
-                .count();
-            assert_eq!(pictures, 1);
-            output
-        },
-        exit: 0,
-        left: &[Else("log", "one picture"), Whole("o.exr")],
-        says: "going on",
-    },
-];
-
 fn mode(path: &Path) -> u32 {
     fs::metadata(path).expect("a file").permissions().mode() & 0o777
 }
@@ -361,25 +168,6 @@ fn two_write_one(at: &Stage) -> Output {
 }
 
 #[test]
-fn disks_are_full() {
-    hold("Full disks", FULL);
-    let stage = Stage::new();
-    let trial = in_tmpfs(&stage, "exit 0");
-    if trial.status.success() {
-        hold("A full file system of its own", TMPFS);
-    } else {
-        let words = words(&trial);
-        let line = format!("NOT RUN: a full tmpfs, which this machine mounts for no test: {words}");
-        let _ = writeln!(std::io::stderr(), "{line}");
-    }
-}
-
-#[test]
 fn places_are_as_they_are() {
     hold("Places", PLACES);
-}
-
-#[test]
-fn streams_are_written_into() {
-    hold("Devices and pipes as outputs", STREAMS);
 }

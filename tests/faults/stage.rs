@@ -55,6 +55,8 @@ pub const ENDLESS: &[&str] = &["render", "s.toml", "-o", "o.exr", "--spp", "1000
 pub const CPU: &[&str] = &["--device", "cpu"];
 /// The first graphics device, and no other.
 pub const GRAPHICS: &[&str] = &["--device", "0"];
+/// A checkpoint when the render stops.
+pub const SAVED: &[&str] = &["--checkpoint", "c"];
 /// Checkpoints as often as can be.
 pub const KEPT: &[&str] = &["--checkpoint", "c", "--checkpoint-every", "0.02"];
 pub const RESUMED: &[&str] = &[

@@ -83,8 +83,10 @@ impl Row {
     /// What is wrong with how it ended.
     fn judge(&self, stage: &Stage, output: &Output) -> Vec<String> {
         let mut faults = Vec::new();
-        if output.status.code() != Some(self.exit) {
-            let signal = output.status.signal();
+        let signal = output.status.signal();
+        // Only SIGKILL may end the program without an exit code of its own; shells then say 137.
+        let killed = (signal == Some(9)).then_some(137);
+        if output.status.code().or(killed) != Some(self.exit) {
             faults.push(format!(
                 "exit {:?}, signal {signal:?}",
                 output.status.code()
