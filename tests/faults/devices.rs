@@ -79,8 +79,8 @@ const LOST: &[Row] = &[
     Row {
         done: "a checkpoint of the device is resumed by `--device cpu`",
         act: |at| {
-            at.stopped(&[LONG, GRAPHICS, KEPT])
-                .run(&[LONG, &["--device", "cpu"], RESUMED])
+            at.stopped(&[ENDLESS, GRAPHICS, KEPT])
+                .run(&[ENDLESS, &["--device", "cpu"], RESUMED])
         },
         exit: 65,
         left: &[Part("o.exr"), Checkpoint("c"), Checkpoint("c.previous")],

@@ -74,22 +74,22 @@ const OTHERS: &[Row] = &[
         act: |at| {
             resume_other(
                 at,
-                &["--set", "render.clamp=off", "--sample-range", "0..9000"],
+                &["--set", "render.clamp=off", "--sample-range", "0..9001"],
             )
         },
         exit: 65,
         left: STOPPED,
-        says: "c: the range of samples is 0..8000 in the checkpoint, and 0..9000 now",
+        says: "c: the range of samples is 0..12000 in the checkpoint, and 0..9001 now",
     },
     Row {
         done: "with other samples (`-s`)",
         act: |at| {
-            let long = [&LONG[..LONG.len() - 1], &["9000"]].concat();
+            let long = [&LONG[..LONG.len() - 1], &["9001"]].concat();
             at.stopped(&[LONG, CPU, KEPT]).run(&[&long, CPU, RESUMED])
         },
         exit: 65,
         left: STOPPED,
-        says: "c: render.samples is 8000 in the checkpoint, and 9000 now",
+        says: "c: render.samples is 12000 in the checkpoint, and 9001 now",
     },
 ];
 

@@ -69,7 +69,7 @@ const SIGNALS: &[Row] = &[
         done: "SIGHUP: the picture so far is written, and the render goes on",
         act: |at| {
             let child = at.start(&[LONG, CPU, KEPT]);
-            at.wait_for_checkpoints();
+            at.wait_for_checkpoints(&child);
             send("HUP", &child);
             at.wait_for("o.exr");
             let record = read_record(at.join("o.exr")).expect("a picture").0;
@@ -204,7 +204,7 @@ fn promptly(at: &Stage, signal: &str) -> Output {
         let _ = fs::remove_file(at.join("c"));
         let _ = fs::remove_file(at.join("c.previous"));
         let child = at.start(&[ENDLESS, CPU, KEPT]);
-        at.wait_for_checkpoints();
+        at.wait_for_checkpoints(&child);
         let sent = Instant::now();
         send(signal, &child);
         let output = child.end();
@@ -225,7 +225,7 @@ fn twice(at: &Stage, signal: &str) -> Output {
         let _ = fs::remove_file(at.join("c"));
         let _ = fs::remove_file(at.join("c.previous"));
         let child = at.start(&[ENDLESS, CPU, KEPT]);
-        at.wait_for_checkpoints();
+        at.wait_for_checkpoints(&child);
         let both = format!(
             "kill -{signal} {0}; sleep 0.0{round}; kill -{signal} {0} 2>&-",
             child.id()
