@@ -2,11 +2,13 @@
 //! fails at once; it is filled when the work is done, and a reader sees the old file or the whole
 //! new one.
 
+mod temporary;
+
 use crate::error::{Error, Result};
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use temporary::Temporary;
 
 /// What a file's bytes are written into.
 pub trait Sink: Write + Seek {}
@@ -19,9 +21,9 @@ pub struct Place {
     path: PathBuf,
     /// Where the symbolic links lead.
     destination: PathBuf,
-    /// A file beside the destination, to be renamed over it; none for a device or a pipe, which a
-    /// rename would destroy.
-    temporary: Option<NamedTempFile>,
+    /// A file in the destination's folder, to be put in its place; none for a device or a pipe, which that
+    /// would destroy.
+    temporary: Option<Temporary>,
 }
 
 impl Place {
@@ -56,7 +58,7 @@ impl Place {
         let temporary = if stream {
             None
         } else {
-            Some(temporary_beside(&destination)?)
+            Some(Temporary::new(folder(&destination))?)
         };
         Ok(Self {
             path: path.into(),
@@ -124,44 +126,32 @@ impl Place {
     }
 }
 
-/// A file beside the target, readable for whom the umask says, as any program's output: temporary
-/// files are otherwise kept from everyone else. Its name is short, whatever the target's.
-fn temporary_beside(target: &Path) -> io::Result<NamedTempFile> {
-    let create = |path: &Path| {
-        OpenOptions::new()
-            .write(true)
-            .read(true)
-            .create_new(true)
-            .open(path)
-    };
-    tempfile::Builder::new()
-        .prefix(".lampray-")
-        .suffix(".tmp")
-        .make_in(folder(target), create)
-}
-
-/// Renames only what is whole and on the disk: also after a power failure a reader sees one of both.
+/// Puts in place only what is whole and on the disk: also after a power failure a reader sees one of both.
 fn write_file(
-    temporary: NamedTempFile,
+    temporary: Temporary,
     target: &Path,
     keep: Option<&Path>,
     fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut writer = BufWriter::with_capacity(1 << 16, temporary.as_file());
+    let mut writer = BufWriter::with_capacity(1 << 16, &temporary.file);
     fill(&mut writer)?;
     writer.flush()?;
     drop(writer);
     if let Ok(old) = fs::metadata(target) {
         // A file that was kept from others stays so. Not every file system has modes.
-        let _ = temporary.as_file().set_permissions(old.permissions());
+        let _ = temporary.file.set_permissions(old.permissions());
     }
-    temporary.as_file().sync_all()?;
-    if let Some(keep) = keep
-        && target.exists()
-    {
-        fs::rename(target, keep)?;
+    temporary.file.sync_all()?;
+    match keep.filter(|_| target.exists()) {
+        None => temporary.put(target)?,
+        Some(keep) => {
+            fs::rename(target, keep)?;
+            if let Err(error) = temporary.put(target) {
+                fs::rename(keep, target)?;
+                return Err(error);
+            }
+        }
     }
-    temporary.persist(target).map_err(|failure| failure.error)?;
     sync_folder(folder(target));
     Ok(())
 }
@@ -200,7 +190,10 @@ fn is_pipe(_metadata: &Metadata) -> bool {
 }
 
 /// Follows symbolic links from file to file, to one that need not exist.
-fn follow(path: &Path) -> io::Result<PathBuf> {
+///
+/// # Errors
+/// Links in a circle, or one that cannot be read.
+pub fn follow(path: &Path) -> io::Result<PathBuf> {
     // As many as Linux follows.
     const LINKS: usize = 40;
     let mut path = path.to_path_buf();
@@ -228,5 +221,50 @@ fn folder(file: &Path) -> &Path {
 fn sync_folder(folder: &Path) {
     if cfg!(unix) {
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
+        let names = fs::read_dir(folder).unwrap().map(name);
+        let mut names: Vec<_> = names.map(|name| name.into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    /// Writes `text` by way of a temporary file, keeping what was there as `old`.
+    fn write(temporary: Temporary, folder: &Path, text: &str) -> io::Result<()> {
+        let fill = |sink: &mut dyn Sink| sink.write_all(text.as_bytes());
+        write_file(
+            temporary,
+            &folder.join("a"),
+            Some(&folder.join("old")),
+            fill,
+        )
+    }
+
+    /// Both ways of holding a file give the same, of which one is that of other systems.
+    #[test]
+    fn files_with_and_without_a_name_end_alike() {
+        for hold in [Temporary::new, Temporary::named] {
+            let folder = tempfile::tempdir().unwrap();
+            let at = folder.path();
+            write(hold(at).unwrap(), at, "one").unwrap();
+            assert_eq!(names(at), ["a"]);
+            write(hold(at).unwrap(), at, "two").unwrap();
+            assert_eq!(names(at), ["a", "old"]);
+            assert_eq!(fs::read(at.join("a")).unwrap(), b"two");
+            assert_eq!(fs::read(at.join("old")).unwrap(), b"one");
+
+            let full = |_: &mut dyn Sink| Err(io::ErrorKind::StorageFull.into());
+            let outcome = write_file(hold(at).unwrap(), &at.join("a"), None, full);
+            assert_eq!(outcome.unwrap_err().kind(), io::ErrorKind::StorageFull);
+            assert_eq!(names(at), ["a", "old"]);
+            assert_eq!(fs::read(at.join("a")).unwrap(), b"two");
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::note;
 use crate::error::{Error, Result};
 use crate::film::{Checkpoint, Record, previous};
-use crate::place::Place;
+use crate::place::{Place, follow};
 use crate::render::{self, Rendering, Task};
 use clap::Args;
 use std::fs;
@@ -57,6 +57,11 @@ impl KeepOptions {
         let Some(path) = &self.checkpoint else {
             return Ok(None);
         };
+        // Where links lead: the checkpoint before lies beside this one, and both can be removed.
+        let path = &follow(path).map_err(|source| Error::Create {
+            path: path.clone(),
+            source,
+        })?;
         let keeper = Keeper {
             path: path.clone(),
             every: self.checkpoint_every,
@@ -64,13 +69,13 @@ impl KeepOptions {
             last: Instant::now(),
             kept: 0,
         };
+        keeper.refuse_stream()?;
         let found = if self.resume {
             Checkpoint::newest(path)?
         } else {
             keeper.refuse_to_lose()?;
             None
         };
-        keeper.refuse_stream()?;
         let Some((checkpoint, remark)) = found else {
             if self.resume {
                 note(&format!(
@@ -106,7 +111,8 @@ impl Keeper {
         Ok(())
     }
 
-    /// Finds out before anything is rendered whether a checkpoint can be written.
+    /// Finds out before anything is read, which a pipe would wait for, or rendered, whether a checkpoint can be
+    /// written.
     fn refuse_stream(&self) -> Result<()> {
         match Place::prepare(&self.path)?.is_stream() {
             false => Ok(()),
@@ -152,7 +158,8 @@ impl Keeper {
         }
     }
 
-    pub(crate) fn path(&self) -> &PathBuf {
-        &self.path
+    /// Where there is something to go on from.
+    pub(crate) fn kept(&self) -> Option<&PathBuf> {
+        (self.kept > 0).then_some(&self.path)
     }
 }

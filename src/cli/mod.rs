@@ -69,6 +69,7 @@ enum Command {
 /// Runs the program and says with which code it ends.
 pub fn main() -> ExitCode {
     panic::set_hook(Box::new(report_panic));
+    signal::survive_file_limits();
     let line = Lampray::parse();
     let diff = matches!(line.command, Command::Diff(_));
     let outcome = panic::catch_unwind(move || run(line));

@@ -71,25 +71,12 @@ impl Run<'_> {
             output,
         };
         let traced = session.trace(&mut device, &mut rendering, &mut keeper, &signals);
-        let written = session.write(&rendering, targets);
-        if let Some(keeper) = &mut keeper {
-            if written.is_ok()
-                && rendering
-                    .stopped
-                    .is_none_or(|stop| stop == Stop::TargetError)
-                && traced.is_ok()
-            {
-                keeper.remove();
-            } else {
-                keeper.save(&task, &rendering)?;
-                remark(
-                    &format!("--resume goes on from {}", keeper.path().display()),
-                    output,
-                );
-            }
-        }
-        traced?;
-        let Some(record) = written? else {
+        let (record, written) = session.write(&rendering, targets);
+        let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
+        let done = enough && traced.is_ok() && written.is_ok();
+        let kept = session.keep(keeper, &rendering, done);
+        first_failure([traced, written, kept])?;
+        let Some(record) = record else {
             return Ok(());
         };
         if !output.quiet {
@@ -175,42 +162,69 @@ impl Session<'_> {
         Some(picture)
     }
 
-    /// Writes the picture; its record, if there is one.
-    fn write(&self, rendering: &Rendering, targets: Vec<Target>) -> Result<Option<Record>> {
+    /// Saves what is done, or removes the checkpoints of what is all done.
+    fn keep(&self, keeper: Option<Keeper>, rendering: &Rendering, done: bool) -> Result<()> {
+        let Some(mut keeper) = keeper else {
+            return Ok(());
+        };
+        if done {
+            keeper.remove();
+            return Ok(());
+        }
+        keeper.save(self.task, rendering)?;
+        if let Some(path) = keeper.kept() {
+            let path = path.display();
+            remark(&format!("--resume goes on from {path}"), self.output);
+        }
+        Ok(())
+    }
+
+    /// Writes the picture, to every output that takes it; its record, if there is one.
+    fn write(&self, rendering: &Rendering, targets: Vec<Target>) -> (Option<Record>, Result<()>) {
         let Some(mut picture) = self.picture(rendering) else {
             remark(
                 "stopped before every pixel had a sample: no picture is written",
                 self.output,
             );
-            return Ok(None);
+            return (None, Ok(()));
         };
         name_outputs(&mut picture.record, &targets);
         let record = picture.record.clone();
         if self.run.no_times {
             picture.record.seconds = Seconds::default();
         }
-        for target in targets {
-            target.write(&picture)?;
-        }
-        Ok(Some(record))
+        let written = targets.into_iter().map(|target| target.write(&picture));
+        (Some(record), first_failure(written))
     }
 
     /// Writes the picture so far, and lets the render go on.
     fn write_meanwhile(&self, rendering: &Rendering) {
-        let files = self
-            .run
-            .outputs
-            .iter()
-            .filter(|path| !Path::new(path).exists() || path.is_file());
-        let files: Vec<_> = files.collect();
-        let written =
-            Target::prepare_all(&files).and_then(|targets| self.write(rendering, targets));
+        let written = Target::prepare_all(&self.run.outputs).and_then(|mut targets| {
+            // A reader of a pipe gets one picture: the last.
+            targets.retain(|target| !target.is_stream());
+            let (record, written) = self.write(rendering, targets);
+            written.map(|()| record)
+        });
         match written {
             Ok(Some(record)) => remark(&format!("{}; going on", summary(&record)), self.output),
             Ok(None) => {}
             Err(error) => note(&format!("lampray: warning: {error}; the render goes on")),
         }
     }
+}
+
+/// The first failure, which says how the program ends; those after it are told.
+fn first_failure(outcomes: impl IntoIterator<Item = Result<()>>) -> Result<()> {
+    // Collected, so that each of them is tried.
+    let failures: Vec<_> = outcomes.into_iter().filter_map(Result::err).collect();
+    let mut failures = failures.into_iter();
+    let Some(first) = failures.next() else {
+        return Ok(());
+    };
+    for error in failures {
+        note(&format!("lampray: {error}"));
+    }
+    Err(first)
 }
 
 fn remark(text: &str, output: Output) {

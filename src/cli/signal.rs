@@ -19,6 +19,13 @@ const HANG_UP: Option<i32> = Some(signal_hook::consts::SIGHUP);
 #[cfg(not(unix))]
 const HANG_UP: Option<i32> = None;
 
+/// Lets a file that may grow no further be an error of writing, which is said and leaves the old file, instead of
+/// the end of the program, which the system makes of it.
+pub(crate) fn survive_file_limits() {
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+}
+
 /// Watches for signals from now on.
 pub(crate) struct Watch {
     flags: Vec<(i32, Arc<AtomicBool>)>,

@@ -220,9 +220,6 @@ impl Checkpoint {
         if let Some(found) = difference(wanted, &self.record, None) {
             return other(&found.what, &found.one, &found.other);
         }
-        if wanted.kernel != self.record.kernel {
-            return other("the kernel", &wanted.kernel, &self.record.kernel);
-        }
         if samples != self.samples {
             let shown = |[from, to]: [u64; 2]| format!("{from}..{to}");
             return other(
@@ -239,6 +236,10 @@ impl Checkpoint {
             let shown =
                 |record: &Record| format!("{} ({})", record.device.name, record.device.driver);
             return other("the device", &shown(wanted), &shown(&self.record));
+        }
+        // After the device, which decides it too.
+        if wanted.kernel != self.record.kernel {
+            return other("the kernel", &wanted.kernel, &self.record.kernel);
         }
         Ok(())
     }

@@ -79,6 +79,11 @@ impl Target {
         self.format
     }
 
+    /// Whether this is a device or a pipe, which holds what was written before too.
+    pub fn is_stream(&self) -> bool {
+        self.place.is_stream()
+    }
+
     /// Writes the picture.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ pub struct Record {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kernel: String,
     pub device: DeviceInfo,
-    /// Every device of a picture that was merged from several; absent for one.
+    /// Every device of a picture that several took part in, by merging or because one was lost; absent for one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub devices: Vec<DeviceInfo>,
     /// Pixels of this picture.

@@ -1,5 +1,6 @@
 //! From `--device` to a device.
 
+use super::memory::refuse_drivers;
 use crate::cpu::{self, Cpu};
 use crate::device::{Device, DeviceInfo, DeviceKind, DeviceRequest};
 use crate::doctor;
@@ -12,8 +13,9 @@ pub const VULKAN_HINT: &str = "for Vulkan on the CPU install mesa-vulkan-drivers
 /// Every device of this machine, in the order of their numbers: graphics devices, hardware first,
 /// then the CPU twin.
 pub fn devices() -> Vec<DeviceInfo> {
-    let found = adapters();
-    found.infos().cloned().chain([cpu::info()]).collect()
+    let found = refuse_drivers().ok().map(|()| adapters());
+    let graphics = found.iter().flat_map(Adapters::infos);
+    graphics.cloned().chain([cpu::info()]).collect()
 }
 
 /// A device and, where the user should know of it, one line on why it is this one.
@@ -62,6 +64,15 @@ fn open_after(
             },
             require,
         );
+    }
+    if let Err(error) = refuse_drivers() {
+        return match (request, require) {
+            (DeviceRequest::Auto, None | Some(DeviceKind::Cpu)) => Ok(Chosen {
+                device: Box::new(Cpu::new()),
+                remark: Some(format!("{error}; rendering with the built-in CPU renderer")),
+            }),
+            _ => Err(error),
+        };
     }
     let found = adapters();
     let infos: Vec<_> = found.infos().cloned().collect();

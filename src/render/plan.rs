@@ -104,7 +104,7 @@ impl Plan {
         })
     }
 
-    /// The plan with bands that end wherever a look is taken at the error.
+    /// The plan with bands that end wherever somebody looks at the error.
     pub fn with_looks(self) -> Self {
         Self {
             looks: true,

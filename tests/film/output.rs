@@ -23,9 +23,7 @@ fn the_format_goes_by_the_extension() {
 #[test]
 fn a_target_that_is_not_used_leaves_no_trace() {
     let folder = Folder::new();
-    let target = Target::prepare(folder.join("a.png")).unwrap();
-    assert_eq!(folder.names().len(), 1);
-    drop(target);
+    drop(Target::prepare(folder.join("a.png")).unwrap());
     assert!(folder.names().is_empty());
 
     fs::write(folder.join("a.png"), "old").unwrap();
@@ -173,8 +171,8 @@ mod unix {
         assert!(read_exr(&longest).is_ok());
     }
 
-    /// Prepares a device as target. A file beside it would be renamed over the device next, which
-    /// must not happen to the machine that runs the tests: it is looked for first.
+    /// Prepares a device as target. A file beside it would be put in the device's place next, which
+    /// must not happen to the machine that runs the tests: it is looked for first, with a name and without.
     fn device(path: &Path) -> Target {
         let target = Target::prepare(path).unwrap();
         let temporary = |entry: std::io::Result<fs::DirEntry>| {
@@ -183,6 +181,7 @@ mod unix {
         for folder in [Path::new("/dev"), path.parent().unwrap()] {
             assert!(!fs::read_dir(folder).unwrap().any(temporary));
         }
+        assert!(target.is_stream());
         target
     }
 
