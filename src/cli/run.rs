@@ -182,10 +182,13 @@ impl Session<'_> {
     /// Writes the picture, to every output that takes it; its record, if there is one.
     fn write(&self, rendering: &Rendering, targets: Vec<Target>) -> (Option<Record>, Result<()>) {
         let Some(mut picture) = self.picture(rendering) else {
-            remark(
-                "stopped before every pixel had a sample: no picture is written",
-                self.output,
-            );
+            // A render that failed before its first block says what failed, which is enough.
+            if rendering.film.paths > 0 || rendering.stopped.is_some() {
+                remark(
+                    "stopped before every pixel had a sample: no picture is written",
+                    self.output,
+                );
+            }
             return (None, Ok(()));
         };
         name_outputs(&mut picture.record, &targets);

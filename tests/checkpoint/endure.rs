@@ -46,7 +46,7 @@ fn a_lost_device_is_opened_anew() {
     let scene = room(&[]);
     let task = Task::new(&scene);
     let wanted = undisturbed(&task);
-    for blocks in 0..6 {
+    for blocks in 0..3 {
         let (outcome, rendering, told) = endured(&task, blocks, &[Some(ENOUGH)], false);
         outcome.expect("it goes on");
         assert_eq!(rendering.film, wanted, "{blocks}");

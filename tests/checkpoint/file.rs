@@ -140,7 +140,7 @@ fn heads_that_do_not_fit_are_refused() {
     for (text, why) in [
         ("[0,0,32768,32768]", "cut short"),
         ("[0,0,4294967295,4294967295]", "cut short"),
-        ("[3,2,0,0]", "cut short"),
+        ("[3,2,0,0]", "no pixels"),
         ("[0,0,3]", "head"),
         ("[0,0,-3,2]", "head"),
     ] {
