@@ -26,6 +26,10 @@ pub enum Error {
     /// A render that this machine has too little memory for (exit 65).
     #[error("{0}")]
     TooLarge(String),
+    /// A render that was stopped before there was anything to write (exit 75: the same command may do better with
+    /// more time, and goes on where there is a checkpoint).
+    #[error("{0}")]
+    Unfinished(String),
     /// No device of the kind that was asked for (exit 69).
     #[error("{0}")]
     Device(String),

@@ -6,7 +6,7 @@ use crate::film::{Checkpoint, Record, previous};
 use crate::place::{Place, follow};
 use crate::render::{self, Rendering, Task};
 use clap::Args;
-use std::fs;
+use std::fs::{self, File, Metadata, TryLockError};
 use std::io;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -23,7 +23,8 @@ pub(crate) struct KeepOptions {
         value_name = "SECONDS",
         default_value = "60",
         requires = "checkpoint",
-        value_parser = super::options::seconds
+        value_parser = super::options::seconds,
+        allow_negative_numbers = true
     )]
     checkpoint_every: Duration,
     /// Go on from the checkpoint: the picture is that of a render that never stopped, byte for byte. Without one
@@ -40,6 +41,8 @@ pub(crate) struct Keeper {
     last: Instant,
     /// Paths that the last checkpoint holds.
     kept: u64,
+    /// The checkpoint that this render wrote last or goes on from, locked as long as the render lives.
+    held: Option<File>,
 }
 
 impl KeepOptions {
@@ -53,6 +56,7 @@ impl KeepOptions {
         &self,
         task: &Task,
         wanted: &Record,
+        outputs: Vec<PathBuf>,
     ) -> Result<Option<(Keeper, Rendering)>> {
         let Some(path) = &self.checkpoint else {
             return Ok(None);
@@ -62,15 +66,17 @@ impl KeepOptions {
             path: path.clone(),
             source,
         })?;
-        let keeper = Keeper {
+        let mut keeper = Keeper {
             path: path.clone(),
             every: self.checkpoint_every,
             samples: [task.samples.start, task.samples.end],
             last: Instant::now(),
             kept: 0,
+            held: None,
         };
-        keeper.refuse_stream()?;
+        keeper.refuse_place(&outputs)?;
         let found = if self.resume {
+            keeper.hold()?;
             Checkpoint::newest(path)?
         } else {
             keeper.refuse_to_lose()?;
@@ -102,9 +108,12 @@ impl Keeper {
     fn refuse_to_lose(&self) -> Result<()> {
         for path in [self.path.clone(), previous(&self.path)] {
             if path.exists() {
-                let source = io::Error::other(
-                    "a file is there; add --resume to go on from it, or remove it",
-                );
+                let source = io::Error::other(match Checkpoint::is_one(&path) {
+                    true => "a checkpoint is there; add --resume to go on from it, or remove it",
+                    false => {
+                        "a file is there that is no checkpoint; give --checkpoint another name"
+                    }
+                });
                 return Err(Error::Create { path, source });
             }
         }
@@ -112,15 +121,50 @@ impl Keeper {
     }
 
     /// Finds out before anything is read, which a pipe would wait for, or rendered, whether a checkpoint can be
-    /// written.
-    fn refuse_stream(&self) -> Result<()> {
-        match Place::prepare(&self.path)?.is_stream() {
-            false => Ok(()),
-            true => Err(Error::Usage(format!(
-                "--checkpoint {}: a checkpoint must be a file",
-                self.path.display()
-            ))),
+    /// written, and is nobody's output.
+    fn refuse_place(&self, outputs: &[PathBuf]) -> Result<()> {
+        let place = Place::prepare(&self.path)?;
+        let own = [place.identity(), previous(&place.identity())];
+        let refused = |why: &str| {
+            let path = self.path.display();
+            Err(Error::Usage(format!("--checkpoint {path}: {why}")))
+        };
+        if place.is_stream() {
+            return refused("a checkpoint must be a file");
         }
+        if own.iter().any(|path| outputs.contains(path)) {
+            return refused(
+                "the picture would be written there, too; give one of them another name",
+            );
+        }
+        Ok(())
+    }
+
+    /// Locks the checkpoint that is there, so that no other render goes on from it or removes it. The lock is the
+    /// system's, and ends with the program. Where there are no locks there is none.
+    fn hold(&mut self) -> Result<()> {
+        let Ok(file) = File::open(&self.path) else {
+            return Ok(());
+        };
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(self.another("another render is writing it"));
+        }
+        self.held = Some(file);
+        Ok(())
+    }
+
+    fn another(&self, why: &'static str) -> Error {
+        Error::Create {
+            path: self.path.clone(),
+            source: io::Error::other(why),
+        }
+    }
+
+    /// Whether the checkpoint that is there is this render's own.
+    fn is_own(&self) -> bool {
+        let there = fs::metadata(&self.path);
+        let held = self.held.as_ref().map(File::metadata);
+        matches!((there, held), (Ok(there), Some(Ok(held))) if same_file(&there, &held))
     }
 
     /// Saves where it is time to. A checkpoint that cannot be written is said and no more: the render goes on.
@@ -142,16 +186,22 @@ impl Keeper {
         if rendering.film.paths == self.kept {
             return Ok(());
         }
+        if self.path.exists() && !self.is_own() {
+            return Err(self.another("another render has written it since"));
+        }
         let mut record = render::record(task, device, rendering);
         record.devices = rendering.devices.clone();
         rendering.film.describe(&mut record);
         Checkpoint::save(&self.path, &record, self.samples, &rendering.film)?;
         self.kept = rendering.film.paths;
-        Ok(())
+        self.hold()
     }
 
     /// The render is done and its pictures are written: nobody needs the checkpoints any more.
     pub(crate) fn remove(&self) {
+        if self.path.exists() && !self.is_own() {
+            return;
+        }
         for path in [self.path.clone(), previous(&self.path)] {
             // One that cannot be removed is whole, and going on from it gives the same picture.
             let _ = fs::remove_file(path);
@@ -162,4 +212,16 @@ impl Keeper {
     pub(crate) fn kept(&self) -> Option<&PathBuf> {
         (self.kept > 0).then_some(&self.path)
     }
+}
+
+/// Whether two names are of one file; not every system tells.
+#[cfg(unix)]
+fn same_file(a: &Metadata, b: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (a.dev(), a.ino()) == (b.dev(), b.ino())
+}
+
+#[cfg(not(unix))]
+fn same_file(a: &Metadata, b: &Metadata) -> bool {
+    (a.len(), a.modified().ok()) == (b.len(), b.modified().ok())
 }

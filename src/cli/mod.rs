@@ -164,6 +164,6 @@ fn code(error: &Error) -> u8 {
         Error::Internal(_) => INTERNAL,
         Error::Create { .. } => 73,
         Error::Write { .. } | Error::Stream { .. } => 74,
-        Error::DeviceLost(_) | Error::Runs(_) | Error::References(_) => 75,
+        Error::DeviceLost(_) | Error::Unfinished(_) | Error::Runs(_) | Error::References(_) => 75,
     }
 }

@@ -1,6 +1,7 @@
 use super::keep::KeepOptions;
 use super::options::{DeviceOptions, KnobOptions, crop, sample_range};
 use super::run::{Run, StopRules};
+use super::signal::Watch;
 use super::{Output, Result};
 use crate::error::Error;
 use crate::film::Aov;
@@ -48,6 +49,7 @@ pub(crate) struct Command {
 
 impl Command {
     pub(crate) fn run(self, output: Output) -> Result<()> {
+        let signals = Watch::of_render();
         let scene = self.knobs.load(&self.scene)?;
         let region = match &self.crop {
             Some(text) => crop(text, &scene)?,
@@ -72,6 +74,7 @@ impl Command {
             rules: self.rules,
             keep: self.keep,
             no_times: self.no_times,
+            signals,
         }
         .go(output)
     }

@@ -1,6 +1,7 @@
 use super::keep::KeepOptions;
 use super::options::DeviceOptions;
 use super::run::{Run, StopRules};
+use super::signal::Watch;
 use super::{Output, Result, note};
 use crate::device::DeviceKind;
 use crate::error::Error;
@@ -32,6 +33,7 @@ pub(crate) struct Command {
 
 impl Command {
     pub(crate) fn run(self, output: Output) -> Result<()> {
+        let signals = Watch::of_render();
         let (record, text) = read_record(&self.image)?;
         let scene = scene_of(&self.image, &record, text)?;
         if record.shader_hash != crate::shader::library_hash() && !output.quiet {
@@ -43,6 +45,15 @@ impl Command {
         }
         let region = region_of(&self.image, &record, &scene)?;
         let [first, end] = whole_range(&self.image, &record)?;
+        if record.samples < end - first && !output.quiet {
+            note(&format!(
+                "warning: {} was stopped when some of its pixels had {} samples and others up to {}: rendering {} of each",
+                self.image.display(),
+                record.samples,
+                end - first,
+                end - first
+            ));
+        }
         let device = device_of(&self.device, &record);
         let (outputs, aovs) = (self.outputs, self.aov);
         Run {
@@ -55,6 +66,7 @@ impl Command {
             rules: StopRules::default(),
             keep: KeepOptions::default(),
             no_times: false,
+            signals,
         }
         .go(output)
     }

@@ -6,7 +6,7 @@ use super::progress::bar;
 use super::signal::Watch;
 use super::{Output, note, print};
 use crate::device::Device;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::film::{Aov, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
 use crate::pack::Rect;
 use crate::render::{self, Rendering, Spares, Task};
@@ -28,17 +28,20 @@ pub(crate) struct Run<'a> {
     pub rules: StopRules,
     pub keep: KeepOptions,
     pub no_times: bool,
+    /// Who has watched for signals from the start: one that comes while a scene is read must be heard, and find no
+    /// temporary file that nobody would remove.
+    pub signals: Watch,
 }
 
 /// When to stop before the last sample.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct StopRules {
     /// Stop after so long, all included, with what is done by then; render.samples stays the most
-    #[arg(long, value_name = "SECONDS", value_parser = super::options::seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = super::options::seconds, allow_negative_numbers = true)]
     time: Option<Duration>,
     /// Stop when the standard error of the mean of the picture, relative to it, is at most E and so are those of
     /// 95 % of the pixels; looked at after 64 samples and then each eighth more. render.samples stays the most
-    #[arg(long, value_name = "E", value_parser = super::options::relative_error)]
+    #[arg(long, value_name = "E", value_parser = super::options::relative_error, allow_negative_numbers = true)]
     target_error: Option<f64>,
 }
 
@@ -46,8 +49,6 @@ impl Run<'_> {
     /// Renders and writes. Outputs that cannot be written are refused before anything is rendered.
     pub(crate) fn go(self, output: Output) -> Result<()> {
         let started = Instant::now();
-        // Watched from the start: a signal must find no temporary file that nobody would remove.
-        let signals = Watch::of_render();
         let task = Task {
             region: self.region,
             samples: self.samples.clone(),
@@ -59,7 +60,8 @@ impl Run<'_> {
         let targets = Target::prepare_all(&self.outputs)?;
         let mut device = self.open(output)?;
         let wanted = render::record(&task, device.info(), &Rendering::new(&task));
-        let (mut keeper, mut rendering) = match self.keep.keeper(&task, &wanted)? {
+        let outputs = targets.iter().map(Target::identity).collect();
+        let (mut keeper, mut rendering) = match self.keep.keeper(&task, &wanted, outputs)? {
             Some((keeper, rendering)) => (Some(keeper), rendering),
             None => (None, Rendering::new(&task)),
         };
@@ -70,19 +72,20 @@ impl Run<'_> {
             opening: started.elapsed(),
             output,
         };
-        let traced = session.trace(&mut device, &mut rendering, &mut keeper, &signals);
+        let traced = session.trace(&mut device, &mut rendering, &mut keeper);
         let (record, written) = session.write(&rendering, targets);
         let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
         let done = enough && traced.is_ok() && written.is_ok();
         let kept = session.keep(keeper, &rendering, done);
+        if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
+            warn_non_finite(&rendering.film);
+            note(&summary(record));
+            session.tell_of_error(&rendering);
+        }
         first_failure([traced, written, kept])?;
         let Some(record) = record else {
             return Ok(());
         };
-        if !output.quiet {
-            warn_non_finite(&rendering.film);
-            note(&summary(&record));
-        }
         if output.json {
             print(&(record.to_json() + "\n"))
         } else {
@@ -116,8 +119,8 @@ impl Session<'_> {
         device: &mut Box<dyn Device>,
         rendering: &mut Rendering,
         keeper: &mut Option<Keeper>,
-        signals: &Watch,
     ) -> Result<()> {
+        let signals = &self.run.signals;
         let bar = progress_bar(self.output, self.run.scene);
         let mut watch = |rendering: &Rendering| {
             bar.set_length(rendering.total);
@@ -147,6 +150,21 @@ impl Session<'_> {
         let traced = render::endure(device, self.task, rendering, spares, &mut watch);
         bar.finish_and_clear();
         traced
+    }
+
+    /// Says where a render of all its samples has a larger error than was asked for.
+    fn tell_of_error(&self, rendering: &Rendering) {
+        let Some(target) = self.run.rules.target_error.filter(|_| rendering.complete()) else {
+            return;
+        };
+        let found = rendering.film.relative_error();
+        if !found.reaches(target) {
+            let text = format!(
+                "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; give it more samples",
+                found.picture, found.pixels
+            );
+            remark(&text, self.output);
+        }
     }
 
     /// The picture as it stands; none while there are pixels without a sample.
@@ -182,12 +200,16 @@ impl Session<'_> {
     /// Writes the picture, to every output that takes it; its record, if there is one.
     fn write(&self, rendering: &Rendering, targets: Vec<Target>) -> (Option<Record>, Result<()>) {
         let Some(mut picture) = self.picture(rendering) else {
+            let what = "not every pixel has a sample yet: no picture is written";
+            if rendering.stopped == Some(Stop::Time) {
+                return (
+                    None,
+                    Err(Error::Unfinished(format!("time is up, and {what}"))),
+                );
+            }
             // A render that failed before its first block says what failed, which is enough.
             if rendering.film.paths > 0 || rendering.stopped.is_some() {
-                remark(
-                    "stopped before every pixel had a sample: no picture is written",
-                    self.output,
-                );
+                remark(what, self.output);
             }
             return (None, Ok(()));
         };

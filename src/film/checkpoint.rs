@@ -175,6 +175,12 @@ impl Checkpoint {
         })
     }
 
+    /// Whether a file begins as a checkpoint does.
+    pub fn is_one(path: &Path) -> bool {
+        let head = File::open(path).and_then(|mut file| take::<8>(&mut file));
+        head.is_ok_and(|head| head == MAGIC)
+    }
+
     /// The last whole checkpoint: that at `path`, or where it is damaged or missing the one before, with a
     /// remark. None where there is neither.
     ///
@@ -219,6 +225,12 @@ impl Checkpoint {
         }
         if let Some(found) = difference(wanted, &self.record, None) {
             return other(&found.what, &found.one, &found.other);
+        }
+        let targets = [wanted.target_error, self.record.target_error];
+        if targets[0] != targets[1] {
+            let shown =
+                |target: Option<f64>| target.map_or("none".into(), |error| error.to_string());
+            return other("the target error", &shown(targets[0]), &shown(targets[1]));
         }
         if samples != self.samples {
             let shown = |[from, to]: [u64; 2]| format!("{from}..{to}");

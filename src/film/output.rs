@@ -6,7 +6,7 @@ use super::{Picture, Record};
 use crate::error::{Error, Result};
 use crate::place::Place;
 use std::collections::HashSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -73,6 +73,11 @@ impl Target {
     /// The path as it was given.
     pub fn path(&self) -> &Path {
         self.place.path()
+    }
+
+    /// What tells two outputs apart: see [`Place::identity`].
+    pub fn identity(&self) -> PathBuf {
+        self.place.identity()
     }
 
     pub fn format(&self) -> Format {

@@ -46,6 +46,9 @@ pub struct Record {
     /// Why it ended before the last of them; absent where it did not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<Stop>,
+    /// The error at which it might end earlier, relative to the mean; absent where none was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_error: Option<f64>,
     pub biased: bool,
     pub seconds: Seconds,
     pub paths: u64,

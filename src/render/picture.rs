@@ -50,6 +50,7 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         seed: settings.render.seed,
         complete: rendering.complete(),
         stopped: rendering.stopped,
+        target_error: task.target_error,
         biased: settings.biased(),
         seconds: Seconds {
             setup: rendering.setup.as_secs_f64(),

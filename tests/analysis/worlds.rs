@@ -235,6 +235,7 @@ fn record(samples: u64, seed: u64) -> Record {
         seed,
         complete: true,
         stopped: None,
+        target_error: None,
         biased: false,
         seconds: Seconds::default(),
         paths: 0,

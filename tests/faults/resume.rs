@@ -47,6 +47,13 @@ const OTHERS: &[Row] = &[
         says: "c: materials.white.albedo is [0.7,0.7,0.7] in the checkpoint",
     },
     Row {
+        done: "with another target error",
+        act: |at| resume_other(at, &["--target-error", "0.5"]),
+        exit: 65,
+        left: STOPPED,
+        says: "c: the target error is none in the checkpoint, and 0.5 now",
+    },
+    Row {
         done: "with another size",
         act: |at| resume_other(at, &["--width", "25"]),
         exit: 65,
@@ -211,6 +218,30 @@ const IN_THE_WAY: &[Row] = &[
         exit: 2,
         left: &[Old("o.exr"), Else("c", "the FIFO")],
         says: "a checkpoint must be a file",
+    },
+    Row {
+        done: "`--checkpoint` names the output",
+        act: |at| {
+            at.old("o.exr")
+                .run(&[SHORT, CPU, &["--checkpoint", "./o.exr"]])
+        },
+        exit: 2,
+        left: &[Old("o.exr")],
+        says: "the picture would be written there, too",
+    },
+    Row {
+        done: "`--resume` from a checkpoint that another render is writing",
+        act: |at| {
+            let other = at.start(&[LONG, CPU, KEPT]);
+            at.wait_for_checkpoints(&other);
+            let output = at.run(&[LONG, CPU, RESUMED]);
+            super::stage::send("TERM", &other);
+            assert_eq!(other.end().status.code(), Some(143));
+            output
+        },
+        exit: 73,
+        left: STOPPED,
+        says: "another render is writing it",
     },
     Row {
         done: "`--checkpoint /dev/null`",

@@ -78,7 +78,7 @@ const STREAMS: &[Row] = &[
         act: |at| {
             let file = File::create(at.join("log")).expect("a file");
             let parts: &[&[&str]] = &[
-                &["render", "s.toml", "--spp", "8000"],
+                &["render", "s.toml", "--spp", "60000"],
                 CPU,
                 &["-o", "/dev/stdout", "-o", "o.exr"],
             ];

@@ -155,6 +155,7 @@ pub fn record(samples: std::ops::Range<u64>) -> Record {
         seed: u64::MAX - 1,
         complete: true,
         stopped: None,
+        target_error: None,
         biased: false,
         seconds: Seconds {
             setup: 0.25,
