@@ -1,7 +1,7 @@
 //! `runs.jsonl`: one line a run, only ever added to.
 //!
-//! Each line goes out in one write to the end of the file, so that two processes never mix theirs; a
-//! line that a kill has cut short is closed by the next one and passed over when reading.
+//! Each line goes out in one write to the end of the file, under a lock, so that two processes never mix
+//! theirs; a line that a kill has cut short is closed by the next one and passed over when reading.
 
 use crate::error::{Error, Result};
 use serde_json::{Map, Value};
@@ -191,10 +191,16 @@ impl Ledger {
         let mut line = Value::Object(entry.clone()).to_string();
         line.push('\n');
         let written = (|| {
+            // Else a line that another process is in the midst of writing looks like one that was cut short.
+            // A file system without locks costs an empty line then, which reading passes over.
+            let locked = file.lock();
             if ends_open(&mut file)? {
                 line.insert(0, '\n');
             }
             file.write_all(line.as_bytes())?;
+            if locked.is_ok() {
+                file.unlock()?;
+            }
             file.sync_data()
         })();
         written.map_err(|source| Error::Write {
@@ -273,5 +279,7 @@ mod tests {
         }
         let ledger = Ledger::open(folder.path()).unwrap();
         assert_eq!((ledger.broken, ledger.finished.len()), (0, 100));
+        let text = std::fs::read_to_string(ledger.path).unwrap();
+        assert_eq!(text.lines().count(), 100);
     }
 }
