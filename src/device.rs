@@ -4,6 +4,7 @@ use crate::error::{Error, Result};
 use crate::pack::{
     CanaryJob, CanaryScene, Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally, Traversal,
 };
+use crate::shader::Library;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -149,6 +150,17 @@ pub const IN_FLIGHT: usize = 2;
 /// Something that traces. A call may take as long as its block says; none of them writes files.
 pub trait Device: Send {
     fn info(&self) -> &DeviceInfo;
+
+    /// Traces by another build's shaders from the next scene on that is loaded.
+    ///
+    /// # Errors
+    /// [`Error::Device`] for a device that has its own code. Faults of the shaders come with [`Device::load`].
+    fn use_shaders(&mut self, _shaders: &Library) -> Result<()> {
+        Err(Error::Device(format!(
+            "{} traces by code of its own, not by shaders",
+            self.info().name
+        )))
+    }
 
     /// Makes a scene the one that is traced, with everything compiled that tracing it needs. Blocks of another that
     /// were started and not finished are forgotten.

@@ -1,5 +1,7 @@
 //! `lampray bench`: what it prints, refuses and does when it is stopped. Times are never tested.
 
+mod support;
+
 use serde_json::Value;
 use std::io::Write;
 use std::path::Path;
@@ -148,6 +150,106 @@ fn an_earlier_run_is_marked_as_one() {
     let comparisons = report["against"]["comparisons"].as_array().unwrap();
     assert_eq!(comparisons.len(), 1);
     assert_eq!(comparisons[0]["same_device"], true);
+}
+
+/// A report of this build, as one of another build whose shader `name` has `from` for `to`.
+fn other_build(folder: &Path, (name, from, to): (&str, &str, &str)) {
+    let first = tiny(folder, &["--primitives", "8", "--json"]);
+    let mut report = json(&first);
+    let text = report["shaders"][name].as_str().expect("the shader's text");
+    assert!(text.contains(from), "{name} has no {from}");
+    report["shaders"][name] = text.replace(from, to).into();
+    std::fs::write(folder.join("then.json"), report.to_string()).unwrap();
+}
+
+/// Rows by their device and shaders.
+fn row<'a>(report: &'a Value, kind: &str, shaders: &str) -> &'a Value {
+    let mut rows = report["rows"].as_array().unwrap().iter();
+    rows.find(|row| {
+        row["shaders"] == shaders && (row["device_info"]["kind"] == "cpu") == (kind == "cpu")
+    })
+    .expect("a row")
+}
+
+#[test]
+fn an_earlier_builds_shaders_are_measured_in_turns_where_they_fit() {
+    let Some(_gpu) = support::gpu("shaders of an earlier build") else {
+        return;
+    };
+    let folder = folder();
+    let against = [
+        "--primitives",
+        "8",
+        "--device",
+        "0",
+        "--against",
+        "then.json",
+        "--json",
+    ];
+    // A build whose paths ended at the first reflection.
+    let ends = (
+        "trace",
+        "(*path).vertex >= job.max_bounces",
+        "(*path).vertex >= 1u",
+    );
+    other_build(folder.path(), ends);
+    let report = json(&tiny(folder.path(), &against));
+    let rays = |kind, shaders| row(&report, kind, shaders)["rays_per_sample"].as_f64();
+    assert!(rays("gpu", "then").unwrap() < 0.7 * rays("gpu", "now").unwrap());
+    assert_eq!(
+        rays("cpu", "now").unwrap().floor(),
+        rays("gpu", "now").unwrap().floor()
+    );
+    let twin = row(&report, "cpu", "then");
+    assert_eq!(
+        (&twin["status"], rays("cpu", "then")),
+        (&"refused".into(), None)
+    );
+    let ratios = report["ratios"].as_array().unwrap();
+    let paired = |ratio: &&Value| ratio["axis"] == "shaders";
+    let paired: Vec<_> = ratios.iter().filter(paired).collect();
+    assert_eq!(paired.len(), 1);
+    assert_eq!(
+        (&paired[0]["of"], &paired[0]["to"]),
+        (&"now".into(), &"then".into())
+    );
+
+    for (fault, words) in [
+        (
+            (
+                "light",
+                "    body: u32,\n",
+                "    lamp: u32,\n    body: u32,\n",
+            ),
+            "laid out otherwise",
+        ),
+        (
+            ("light", "struct Cone", "struct struct Cone"),
+            "light.wgsl:",
+        ),
+        (
+            (
+                "camera",
+                "struct Camera",
+                "override GONE: u32;\nfn gone() -> u32 { return GONE; }\nstruct Camera",
+            ),
+            "GONE",
+        ),
+    ] {
+        other_build(folder.path(), fault);
+        let report = json(&tiny(folder.path(), &against));
+        let then = row(&report, "gpu", "then");
+        let reason = then["reason"].as_str().unwrap();
+        assert!(
+            then["status"] == "refused" && reason.contains(words),
+            "{reason}"
+        );
+        assert!(
+            !reason.contains("report it"),
+            "it is no fault of this build: {reason}"
+        );
+        assert_eq!(row(&report, "gpu", "now")["status"], "measured");
+    }
 }
 
 #[test]

@@ -1,5 +1,7 @@
-//! Ratios to an earlier run, which are worth less than those inside one.
+//! Ratios to an earlier run's times, which are worth less than those inside one: where the earlier run's shaders
+//! still fit, they are measured again, in turns with this program's ([`super::Axis::Shaders`]).
 
+use super::order::Shaders;
 use super::report::{Report, Row};
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +37,10 @@ pub struct Comparison {
 
 impl Against {
     pub fn new(now: &Report, then: &Report, file: &str) -> Self {
-        let measured = || now.rows.iter().filter(|row| row.figures.is_some());
+        let measured = || {
+            let rows = now.rows.iter();
+            rows.filter(|row| row.figures.is_some() && is_of_its_own(row))
+        };
         let comparisons: Vec<_> = measured()
             .filter_map(|row| compared(row, counterpart(row, then)?))
             .collect();
@@ -49,10 +54,16 @@ impl Against {
     }
 }
 
+/// Whether a row was traced by the shaders of the program that measured it.
+fn is_of_its_own(row: &Row) -> bool {
+    row.shaders.as_deref() != Some(Shaders::Then.name())
+}
+
 /// The earlier row of the same device, or, where that run had but one device, of that.
 fn counterpart<'a>(row: &Row, then: &'a Report) -> Option<&'a Row> {
     let alike = |other: &&Row| {
         other.figures.is_some()
+            && is_of_its_own(other)
             && (&other.scene, other.primitives) == (&row.scene, row.primitives)
             && (&other.preset, &other.kernel) == (&row.preset, &row.kernel)
     };
@@ -97,6 +108,7 @@ mod tests {
             devices: benches(&names).unwrap(),
             presets: vec![Preset::Reference],
             kernels: vec![None],
+            then: None,
             assignments: Vec::new(),
             repeats: 1,
             seconds: 1e-4,

@@ -5,7 +5,7 @@ use super::machine::{forget_peak, peak};
 use crate::device::Device;
 use crate::error::Result;
 use crate::film::Stop;
-use crate::pack::Packed;
+use crate::pack::{Packed, Traversal};
 use crate::render::{self, Task};
 use crate::scene::Scene;
 use std::ops::ControlFlow;
@@ -15,6 +15,8 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     pub effort: Effort,
+    /// What found the bodies.
+    pub kernel: Traversal,
     pub paths: u64,
     pub rays: u64,
     /// From the scene to its flat buffers.
@@ -86,13 +88,16 @@ fn trace(
 ) -> Result<Option<Measured>> {
     let before = device.readback();
     let started = Instant::now();
-    let rendering = render::render(device, &Task::new(scene), &mut |rendering| {
+    let task = Task::new(scene);
+    let kernel = device.info().traversal(task.traversal);
+    let rendering = render::render(device, &task, &mut |rendering| {
         watch(rendering.share()).map_break(|()| Stop::Signal)
     })?;
     let total = started.elapsed().as_secs_f64();
     let readback = device.readback() - before;
     Ok(rendering.complete().then(|| Measured {
         effort,
+        kernel,
         paths: rendering.film.paths,
         rays: rendering.film.rays,
         pack: 0.0,

@@ -5,6 +5,7 @@ use super::subject::Subject;
 use crate::error::{Error, Result};
 use crate::knobs::{Choice, Kind, Preset, find, nearest};
 use crate::scene::{Assignment, Scene};
+use crate::shader::Library;
 use serde::{Deserialize, Serialize};
 
 /// The knob that chooses a kernel, in builds that have several.
@@ -26,16 +27,18 @@ pub enum Axis {
     Device,
     Preset,
     Kernel,
+    Shaders,
 }
 
 impl Axis {
-    pub const ALL: [Self; 3] = [Self::Device, Self::Preset, Self::Kernel];
+    pub const ALL: [Self; 4] = [Self::Device, Self::Preset, Self::Kernel, Self::Shaders];
 
     pub fn name(self) -> &'static str {
         match self {
             Self::Device => "device",
             Self::Preset => "preset",
             Self::Kernel => "kernel",
+            Self::Shaders => "shaders",
         }
     }
 }
@@ -46,6 +49,7 @@ pub struct Cell {
     pub device: usize,
     pub preset: usize,
     pub kernel: usize,
+    pub shaders: usize,
 }
 
 impl Cell {
@@ -54,6 +58,7 @@ impl Cell {
             Axis::Device => self.device,
             Axis::Preset => self.preset,
             Axis::Kernel => self.kernel,
+            Axis::Shaders => self.shaders,
         }
     }
 
@@ -64,8 +69,27 @@ impl Cell {
             Axis::Device => base.device = 0,
             Axis::Preset => base.preset = 0,
             Axis::Kernel => base.kernel = 0,
+            Axis::Shaders => base.shaders = 0,
         }
         (base != self).then_some(base)
+    }
+}
+
+/// Shaders to trace by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shaders {
+    /// Those of an earlier build.
+    Then,
+    /// This program's.
+    Now,
+}
+
+impl Shaders {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Then => "then",
+            Self::Now => "now",
+        }
     }
 }
 
@@ -77,6 +101,8 @@ pub struct Order {
     pub presets: Vec<Preset>,
     /// None leaves the choice to the renderer.
     pub kernels: Vec<Option<String>>,
+    /// An earlier build's shaders, to be measured in turns with this program's.
+    pub then: Option<Library>,
     /// Knobs over what each scene says.
     pub assignments: Vec<Assignment>,
     /// Measurements of each cell, beside the first, which is thrown away.
@@ -92,15 +118,25 @@ impl Order {
         for device in 0..self.devices.len() {
             for preset in 0..self.presets.len() {
                 for kernel in 0..self.kernels.len() {
-                    cells.push(Cell {
+                    let shaders = 0..self.shaders().len();
+                    cells.extend(shaders.map(|shaders| Cell {
                         device,
                         preset,
                         kernel,
-                    });
+                        shaders,
+                    }));
                 }
             }
         }
         cells
+    }
+
+    /// The values of the axis of shaders.
+    pub fn shaders(&self) -> &'static [Shaders] {
+        match self.then {
+            Some(_) => &[Shaders::Then, Shaders::Now],
+            None => &[Shaders::Now],
+        }
     }
 
     /// Whether an axis has more than one value.
@@ -109,6 +145,7 @@ impl Order {
             Axis::Device => self.devices.len(),
             Axis::Preset => self.presets.len(),
             Axis::Kernel => self.kernels.len(),
+            Axis::Shaders => self.shaders().len(),
         };
         values > 1
     }
@@ -119,6 +156,7 @@ impl Order {
             Axis::Device => Some(self.devices[cell.device].label.clone()),
             Axis::Preset => Some(self.presets[cell.preset].to_string()),
             Axis::Kernel => self.kernels[cell.kernel].clone(),
+            Axis::Shaders => Some(self.shaders()[cell.shaders].name().into()),
         }
     }
 
@@ -235,6 +273,7 @@ mod tests {
             device: 1,
             preset: 0,
             kernel: 2,
+            shaders: 0,
         };
         let base = cell.base(Axis::Device).unwrap();
         assert_eq!((base.device, base.preset, base.kernel), (0, 0, 2));

@@ -8,6 +8,7 @@ use super::spread::{Spread, ratios};
 use super::subject::Subject;
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
+use crate::shader::Library;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -17,6 +18,9 @@ pub struct Report {
     /// Version of lampray.
     pub version: String,
     pub shader_hash: String,
+    /// The shaders themselves, so that a later build can measure them beside its own; absent in older reports.
+    #[serde(default)]
+    pub shaders: Option<Library>,
     pub machine: Machine,
     /// Measurements that count, of each row that was finished.
     pub repeats: u32,
@@ -57,6 +61,9 @@ pub struct Row {
     pub preset: String,
     /// Absent where the renderer chose.
     pub kernel: Option<String>,
+    /// `then` or `now`, where an earlier build's shaders were measured beside this one's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shaders: Option<String>,
     pub status: Status,
     /// Why it was not measured.
     pub reason: Option<String>,
@@ -67,6 +74,9 @@ pub struct Row {
 /// A measured row's numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
+    /// The kernel that traced; empty in older reports.
+    #[serde(default)]
+    pub traced_by: String,
     pub width: u32,
     pub height: u32,
     /// Paths a pixel of each measurement.
@@ -119,6 +129,7 @@ impl Report {
         Self {
             version: env!("CARGO_PKG_VERSION").into(),
             shader_hash: crate::shader::library_hash(),
+            shaders: Some(Library::default()),
             machine: Machine::here(),
             repeats: order.repeats,
             seconds: order.seconds,
@@ -190,6 +201,10 @@ fn row(order: &Order, subject: &Subject, primitives: usize, found: &Gathered) ->
         device_info: device.info.clone(),
         preset: order.presets[found.cell.preset].to_string(),
         kernel: order.kernels[found.cell.kernel].clone(),
+        shaders: order
+            .several(Axis::Shaders)
+            .then(|| order.label(found.cell, Axis::Shaders))
+            .flatten(),
         status,
         reason,
         figures,
@@ -205,6 +220,7 @@ fn figures(found: &Gathered) -> Option<Figures> {
         .collect();
     let one = kept.first()?;
     Some(Figures {
+        traced_by: one.kernel.to_string(),
         width: one.effort.width,
         height: one.effort.height,
         samples: one.effort.samples,

@@ -2,7 +2,7 @@
 
 use super::effort::{Effort, one_size};
 use super::measure::{Measured, calibrate, measure};
-use super::order::{Axis, Cell, Order, turn};
+use super::order::{Axis, Cell, Order, Shaders, turn};
 use super::report::{Gathered, Report, Status};
 use super::subject::Subject;
 use crate::error::{Error, Result};
@@ -130,6 +130,10 @@ impl Runner<'_> {
     ) -> Result<Option<Measured>> {
         let mut scene = self.order.scene(subject, cell)?;
         let mut device = self.order.devices[cell.device].open()?;
+        if let (Some(then), Shaders::Then) = (&self.order.then, self.order.shaders()[cell.shaders])
+        {
+            device.use_shaders(then)?;
+        }
         let mut step = self.step(subject, cell, number);
         let (done, all) = (self.done as f64, self.all as f64);
         let (watch, stopped) = (&mut self.watch, &mut self.stopped);

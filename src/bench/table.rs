@@ -56,24 +56,31 @@ fn rows(report: &Report) -> String {
         let first = report.rows.first().map(value);
         report.rows.iter().any(|row| Some(value(row)) != first)
     };
-    let kernel = |row: &Row| row.kernel.clone().unwrap_or_default();
+    let kernel = |row: &Row| match (&row.figures, &row.kernel) {
+        (Some(figures), Some(asked)) if figures.traced_by != *asked => {
+            format!("{asked}: {}", figures.traced_by)
+        }
+        (Some(figures), _) => figures.traced_by.clone(),
+        (None, asked) => asked.clone().unwrap_or_default(),
+    };
     let devices = several(|row| &row.device);
     let presets = several(|row| &row.preset);
-    let kernels = report.rows.iter().any(|row| row.kernel.is_some());
-    let mut lines = vec![head(devices, presets, kernels)];
+    let shaders = report.rows.iter().any(|row| row.shaders.is_some());
+    let mut lines = vec![head(devices, presets, shaders)];
     let mut notes: Vec<&str> = Vec::new();
     for row in &report.rows {
         let mut line = vec![row.scene.clone(), row.primitives.to_string()];
         line.extend(devices.then(|| row.device.clone()));
         line.extend(presets.then(|| row.preset.clone()));
-        line.extend(kernels.then(|| kernel(row)));
+        line.push(kernel(row));
+        line.extend(shaders.then(|| row.shaders.clone().unwrap_or_default()));
         match &row.figures {
             Some(figures) => line.extend(cells(figures)),
             None => line.push(state(row, &mut notes)),
         }
         lines.push(line);
     }
-    let left = 2 + usize::from(devices) + usize::from(presets) + usize::from(kernels);
+    let left = 3 + usize::from(devices) + usize::from(presets) + usize::from(shaders);
     let mut text = aligned(&lines, |column| column != 1 && column < left);
     for (index, note) in notes.iter().enumerate() {
         let _ = writeln!(text, "\n({}) {note}", index + 1);
@@ -81,11 +88,12 @@ fn rows(report: &Report) -> String {
     text
 }
 
-fn head(devices: bool, presets: bool, kernels: bool) -> Vec<String> {
+fn head(devices: bool, presets: bool, shaders: bool) -> Vec<String> {
     let mut head = vec!["scene", "bodies"];
     head.extend(devices.then_some("device"));
     head.extend(presets.then_some("preset"));
-    head.extend(kernels.then_some("kernel"));
+    head.push("kernel");
+    head.extend(shaders.then_some("shaders"));
     head.extend([
         "Mrays/s",
         "[middle half]",
@@ -171,8 +179,8 @@ fn earlier(against: &Against) -> String {
         false => "ANOTHER MACHINE",
     };
     let shaders = match against.same_shaders {
-        true => "",
-        false => ", other shaders",
+        true => ", the same shaders",
+        false => ", other shaders (then and now above, where they were measured in turns)",
     };
     let mut lines = vec![
         ["scene", "of", "to", "Mrays/s", "[if quartiles differ]"]
@@ -297,6 +305,7 @@ mod tests {
             device_info: crate::cpu::info(),
             preset: "reference".into(),
             kernel: None,
+            shaders: None,
             status: Status::Refused,
             reason: Some(reason.into()),
             figures: None,
@@ -310,6 +319,7 @@ mod tests {
         let report = Report {
             version: "0".into(),
             shader_hash: String::new(),
+            shaders: None,
             machine: crate::bench::Machine::here(),
             repeats: 3,
             seconds: 1.0,

@@ -8,6 +8,7 @@ use crate::bench::{
 };
 use crate::error::{Error, Result};
 use crate::scene::Assignment;
+use crate::shader::Library;
 use clap::Args;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -66,7 +67,8 @@ pub(crate) struct Command {
     /// Few scenes, short measurements
     #[arg(long)]
     quick: bool,
-    /// What --json printed earlier: adds ratios to it
+    /// What --json printed earlier: the shaders of that build are measured too, in turns with this
+    /// one's and by this program's host; ratios of the times then and now are added, which are not paired
     #[arg(long, value_name = "FILE")]
     against: Option<PathBuf>,
     /// Print the room of N spheres as a scene file, and measure nothing
@@ -86,7 +88,9 @@ impl Command {
         }
         let signals = Watch::new();
         let before = self.against.as_deref().map(Report::read).transpose()?;
-        let order = self.order()?;
+        let then = before.as_ref().and_then(|report| report.shaders.clone());
+        let then = then.filter(|shaders| !shaders.is_own());
+        let order = self.order(then)?;
         for device in &order.devices {
             if let Some(text) = &device.remark {
                 remark(&format!("lampray: {text}"), output);
@@ -113,7 +117,8 @@ impl Command {
         something(&report)
     }
 
-    fn order(&self) -> Result<Order> {
+    /// `then`: other shaders, to be measured beside this program's.
+    fn order(&self, then: Option<Library>) -> Result<Order> {
         let or = |given: &[String], default: &[&str]| match given {
             [] => default.iter().map(|name| String::from(*name)).collect(),
             given => given.to_vec(),
@@ -123,6 +128,7 @@ impl Command {
             subjects: self.subjects()?,
             presets: presets(&or(&self.preset, &["reference"]))?,
             kernels: kernels(&self.kernel)?,
+            then,
             assignments: set.collect::<Result<_>>()?,
             repeats: self.repeats.unwrap_or(if self.quick { 3 } else { 5 }),
             seconds: self.duration()?,

@@ -13,7 +13,7 @@ use crate::device::{Block, Device, DeviceInfo, Limits, Traced};
 use crate::error::{Error, Result};
 use crate::pack::*;
 use crate::panics::catch;
-use crate::shader::{Baked, Kernel, SceneArray, SceneArrays};
+use crate::shader::{Baked, Kernel, Library, SceneArray, SceneArrays};
 use bytemuck::{Pod, Zeroable};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -44,6 +44,7 @@ pub struct Gpu {
     loaded: Option<Loaded>,
     pub(super) queue: Queue,
     fault: Fault,
+    shaders: Library,
 }
 
 /// What a kernel runs over.
@@ -95,6 +96,7 @@ impl Gpu {
             loaded: None,
             queue: Queue::default(),
             fault: Fault::of_this_device(),
+            shaders: Library::default(),
         })
     }
 
@@ -125,7 +127,8 @@ impl Gpu {
         };
         let kept = self.kept.as_ref().map(Kept::pipelines);
         let arrays = arrays.unwrap_or(none);
-        let pipeline = Pipeline::new(&self.guard, kernel, strategy, arrays, baked, kept)?;
+        let wanted = (kernel, strategy, arrays);
+        let pipeline = Pipeline::new(&self.guard, &self.shaders, wanted, baked, kept)?;
         let pipeline = Arc::new(pipeline);
         self.pipelines.insert(key, pipeline.clone());
         Ok(pipeline)
@@ -269,6 +272,12 @@ pub(super) fn tiles(rect: Rect) -> [u32; 2] {
 impl Device for Gpu {
     fn info(&self) -> &DeviceInfo {
         &self.info
+    }
+
+    fn use_shaders(&mut self, shaders: &Library) -> Result<()> {
+        self.shaders = shaders.clone();
+        self.pipelines = Cache::new();
+        Ok(())
     }
 
     fn load(&mut self, scene: &Packed) -> Result<()> {

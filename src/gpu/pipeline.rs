@@ -1,10 +1,10 @@
 //! Pipelines: a kernel, its bindings, and the strategy that its override constants spell.
 
 use super::guard::Guard;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::knobs::Choice;
 use crate::pack::Strategy;
-use crate::shader::{self, Baked, Kernel, SceneArrays};
+use crate::shader::{self, Baked, Joined, Kernel, Library, SceneArrays};
 use std::borrow::Cow;
 
 /// What a kernel binds in group 1, after the scene in group 0.
@@ -83,20 +83,23 @@ impl Pipeline {
     /// serve many scenes is `kept`.
     ///
     /// # Errors
-    /// [`crate::Error::Internal`] with file and line where the shader is at fault.
+    /// [`Error::Internal`] with file and line where the shader is at fault; [`Error::Device`] where it is another
+    /// build's and does not fit this one.
     pub fn new(
         guard: &Guard,
-        kernel: Kernel,
-        strategy: &Strategy,
-        arrays: SceneArrays,
+        library: &Library,
+        (kernel, strategy, arrays): (Kernel, &Strategy, SceneArrays),
         baked: Option<&Baked>,
         kept: Option<&wgpu::PipelineCache>,
     ) -> Result<Self> {
-        let joined = match baked {
-            Some(baked) => shader::baked_source(baked)?,
-            None => shader::source(kernel, arrays)?,
+        let text = |library: &Library| match baked {
+            Some(baked) => shader::baked_source_of(library, baked),
+            None => shader::source_of(library, kernel, arrays),
         };
-        let module = shader::parse(&joined)?;
+        let module = match library.is_own() {
+            true => shader::parse(&text(library)?)?,
+            false => foreign(library, text)?,
+        };
         let constants = constants(&module, strategy);
         let scene = if binds_scene(kernel) {
             scene_bindings(arrays)
@@ -133,6 +136,24 @@ impl Pipeline {
             }
         })
     }
+}
+
+/// Another build's kernel, where it still fits this one's buffers and constants.
+fn foreign(library: &Library, text: impl Fn(&Library) -> Result<Joined>) -> Result<naga::Module> {
+    let own = shader::parse(&text(&Library::default())?)?;
+    let module = text(library).and_then(|joined| {
+        let module = shader::parse(&joined)?;
+        shader::validate(&joined, &module).map(|()| module)
+    });
+    let unfit =
+        |reason: String| Error::Device(format!("the other build's shaders do not fit: {reason}"));
+    let module = module.map_err(|fault| match fault {
+        // Of the other build, and no fault of this one's.
+        Error::Internal(text) => unfit(text),
+        other => other,
+    })?;
+    shader::same_interface(&module, &own).map_err(unfit)?;
+    Ok(module)
 }
 
 /// The strategy's constants that this kernel has.

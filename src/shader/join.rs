@@ -3,7 +3,7 @@
 //! A file imports another with a comment line at its top: `// #import name`. The name `traversal` stands
 //! for one of several files that declare the same functions: [`Traversal`] says which.
 
-use super::library::LIBRARY;
+use super::library::Library;
 use crate::error::{Error, Result};
 use crate::pack::Traversal;
 
@@ -44,14 +44,6 @@ impl Joined {
     }
 }
 
-/// Joins `kernel` with what it imports, after the generated text `constants`.
-///
-/// # Errors
-/// [`Error::Internal`] for an import of a file that there is none of, or that imports itself.
-pub fn join(kernel: &str, constants: &str, traversal: Traversal) -> Result<Joined> {
-    join_from(kernel, constants, LIBRARY, traversal)
-}
-
 /// The file that an import names.
 fn file_of(import: &str, traversal: Traversal) -> &str {
     match (import, traversal) {
@@ -62,8 +54,21 @@ fn file_of(import: &str, traversal: Traversal) -> &str {
     }
 }
 
-/// [`join`] over any set of files.
-pub(crate) fn join_from(
+/// Joins `kernel` with what it imports, after the generated text `constants`.
+///
+/// # Errors
+/// [`Error::Internal`] for an import of a file that there is none of, or that imports itself.
+pub fn join(
+    library: &Library,
+    kernel: &str,
+    constants: &str,
+    traversal: Traversal,
+) -> Result<Joined> {
+    let files: Vec<_> = library.files().collect();
+    join_files(kernel, constants, &files, traversal)
+}
+
+fn join_files(
     kernel: &str,
     constants: &str,
     library: &[(&str, &str)],
@@ -137,7 +142,7 @@ mod tests {
             ("b", "// #import c\nfn b() {}"),
             ("c", "fn c() {}\n"),
         ];
-        let joined = join_from("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
+        let joined = join_files("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
         assert_eq!(joined.text.matches("fn c()").count(), 1);
         let line = joined
             .text
@@ -157,7 +162,7 @@ mod tests {
             ("bvh", "fn found() -> u32 {\n    return 2u;\n}\n"),
         ];
         for (traversal, name) in [(Traversal::General, "loops"), (Traversal::Bvh, "bvh")] {
-            let joined = join_from("a", "", &files, traversal).unwrap();
+            let joined = join_files("a", "", &files, traversal).unwrap();
             let names: Vec<_> = joined.file_names().collect();
             assert_eq!(names, ["constants", name, "a"]);
         }
@@ -167,14 +172,14 @@ mod tests {
     fn circles_and_missing_files_are_refused() {
         let circle = [("a", "// #import b\n"), ("b", "// #import a\n")];
         assert!(
-            join_from("a", "", &circle, Traversal::General)
+            join_files("a", "", &circle, Traversal::General)
                 .unwrap_err()
                 .to_string()
                 .contains("a -> b -> a")
         );
         let missing = [("a", "// #import b\n")];
         assert!(
-            join_from("a", "", &missing, Traversal::General)
+            join_files("a", "", &missing, Traversal::General)
                 .unwrap_err()
                 .to_string()
                 .contains("a imports b")
@@ -187,7 +192,7 @@ mod tests {
             ("a", "// #import b\nfn a() {}\n"),
             ("b", "fn b() {}\n\nfn broken() { let x = ; }\n"),
         ];
-        let joined = join_from("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
+        let joined = join_files("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
         let fault = crate::shader::parse(&joined).unwrap_err().to_string();
         assert!(fault.contains("b.wgsl:3"), "{fault}");
     }
@@ -201,7 +206,7 @@ mod tests {
                 "fn b() {}\n\nfn broken() -> u32 {\n    let x = vec2<f32>(1.0) * vec3<f32>(1.0);\n    return 1u;\n}\n",
             ),
         ];
-        let joined = join_from("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
+        let joined = join_files("a", "const X: u32 = 1u;\n", &files, Traversal::General).unwrap();
         let outcome = crate::shader::parse(&joined)
             .and_then(|module| crate::shader::validate(&joined, &module));
         let fault = outcome.unwrap_err().to_string();

@@ -3,13 +3,15 @@
 
 mod arrays;
 mod bake;
+mod interface;
 mod join;
 mod library;
 
 pub use arrays::{SceneArray, SceneArrays};
 pub use bake::Baked;
+pub use interface::same_interface;
 pub use join::{Joined, join};
-pub use library::LIBRARY;
+pub use library::{LIBRARY, Library};
 
 use crate::error::{Error, Result};
 use crate::knobs::*;
@@ -91,11 +93,20 @@ fn constants() -> String {
 /// # Errors
 /// Only where the files of `shaders/` contradict each other, which the tests rule out.
 pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
+    source_of(&Library::default(), kernel, arrays)
+}
+
+/// [`source`], of any build's files.
+///
+/// # Errors
+/// [`Error::Internal`] where the files contradict each other.
+pub fn source_of(library: &Library, kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
     let scene = match kernel {
         Kernel::Trace | Kernel::Features => arrays.declarations(),
         Kernel::Points | Kernel::Probe | Kernel::Canary => String::new(),
     };
-    join(kernel.name(), &(constants() + &scene), arrays.traversal())
+    let generated = constants() + &scene;
+    join(library, kernel.name(), &generated, arrays.traversal())
 }
 
 /// The whole text of the tracing kernel for one scene.
@@ -103,8 +114,16 @@ pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
 /// # Errors
 /// As [`source`].
 pub fn baked_source(baked: &Baked) -> Result<Joined> {
+    baked_source_of(&Library::default(), baked)
+}
+
+/// [`baked_source`], of any build's files.
+///
+/// # Errors
+/// As [`source_of`].
+pub fn baked_source_of(library: &Library, baked: &Baked) -> Result<Joined> {
     let generated = constants() + &baked.text;
-    join(Kernel::Trace.name(), &generated, Traversal::Baked)
+    join(library, Kernel::Trace.name(), &generated, Traversal::Baked)
 }
 
 /// Parses a kernel's text; a fault is reported with the file and line it stands in.
