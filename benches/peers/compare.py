@@ -113,6 +113,7 @@ def options():
     parser.add_argument("--device", action="append", help="lampray's device, may be given several times [software, cpu]")
     parser.add_argument("--set", action="append", default=[], help="a knob for lampray, PATH=VALUE")
     parser.add_argument("--case", action="append", help="only this case; may be given several times")
+    parser.add_argument("--avx2", action="store_true", help="Mitsuba's LLVM variant also compiled for AVX2: 8 lanes, as lavapipe")
     parser.add_argument("--repeats", type=int, help="turns that count [5; of --quick 3]")
     return parser.parse_args()
 
@@ -125,6 +126,8 @@ def main():
         folder = Path(name)
         programs = [Lampray(device, chosen.set, folder) for device in chosen.device or ["software", "cpu"]]
         programs += [Mitsuba(variant, folder) for variant in VARIANTS]
+        if chosen.avx2:
+            programs.append(Mitsuba("llvm_ad_rgb", folder, "avx2"))
         print(f"lampray beside Mitsuba {mitsuba.__version__}, {THREADS} threads each, {repeats} turns", flush=True)
         if chosen.quick:
             print("--quick shows that all works: its pictures are too small for Mitsuba's wavefronts, quote no ratio of it")

@@ -57,10 +57,10 @@ class Lampray:
 class Mitsuba:
     """A process that stays, so that compiling is paid once and not timed."""
 
-    def __init__(self, variant, folder):
-        self.name = f"mitsuba {variant}"
-        self.picture = folder / f"{variant}.npy"
-        command = [sys.executable, HERE / "worker.py", variant, str(THREADS)]
+    def __init__(self, variant, folder, *target):
+        self.name = " ".join(["mitsuba", variant, *target])
+        self.picture = folder / f"{'-'.join([variant, *target])}.npy"
+        command = [sys.executable, HERE / "worker.py", variant, str(THREADS), *target]
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, env=environment())
 
