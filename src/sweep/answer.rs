@@ -242,9 +242,13 @@ struct Gathered {
     reference: Option<usize>,
 }
 
+/// More axes in step than this are a list of variants, and a group is called by what it changes.
+const FEW: usize = 2;
+
 /// Says which runs belong together.
 fn gather(entries: &[Entry], grid: &Grid) -> Vec<Gathered> {
     let telling: Vec<&str> = grid.telling().map(|axis| axis.path.as_str()).collect();
+    let variants = grid.zip && telling.len() > FEW;
     let mut groups: Vec<Gathered> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     for (number, entry) in entries.iter().enumerate() {
@@ -253,8 +257,12 @@ fn gather(entries: &[Entry], grid: &Grid) -> Vec<Gathered> {
         shared.shift_remove("render.seed");
         let key = Value::Object(shared.clone()).to_string();
         let place = *places.entry(key).or_insert_with(|| {
+            let first = groups.first().map(|group| &group.values);
             groups.push(Gathered {
-                name: name(&shared, &telling),
+                name: match variants {
+                    true => variant(&shared, first),
+                    false => name(&shared, &telling),
+                },
                 values: shared,
                 runs: Vec::new(),
                 reference: None,
@@ -277,6 +285,19 @@ fn name(values: &Map<String, Value>, telling: &[&str]) -> String {
         true => "all runs".into(),
         false => all.join(", "),
     }
+}
+
+/// Of many knobs in step, those that have another value than in the first step.
+fn variant(values: &Map<String, Value>, first: Option<&Map<String, Value>>) -> String {
+    let Some(first) = first else {
+        return "the first step".into();
+    };
+    let values = values.iter();
+    let changed = values.filter(|(path, value)| first.get(*path) != Some(value));
+    let all: Vec<String> = changed
+        .map(|(path, value)| format!("{path}={}", plain(value)))
+        .collect();
+    all.join(", ")
 }
 
 /// Reads a group's pictures, one after another.

@@ -4,6 +4,7 @@ use super::axis::{Axis, MOST_RUNS};
 use crate::error::{Error, Result};
 use crate::knobs::short;
 use crate::scene::Assignment;
+use std::collections::HashMap;
 
 /// Each pair of axes is compared.
 const MOST_AXES: usize = 1000;
@@ -17,7 +18,7 @@ const SEED: &str = "render.seed";
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     pub axes: Vec<Axis>,
-    /// Whether the axes go in step rather than in every combination.
+    /// Whether the axes go in step rather than in every combination; one of a single value then stays at it.
     pub zip: bool,
     /// Repeats of each point, with the seeds 0, 1, 2, ... after the scene's own.
     pub seeds: u64,
@@ -36,12 +37,12 @@ impl Grid {
     /// How many runs there are.
     ///
     /// # Errors
-    /// [`Error::Usage`] for axes in step that have different lengths, a knob twice, a seed both as
+    /// [`Error::Usage`] for axes in step that have different lengths, a knob or a point twice, a seed both as
     /// an axis and by repeats, or too many runs or values.
     pub fn count(&self) -> Result<usize> {
         self.check()?;
         let points = if self.zip {
-            self.axes.first().map_or(1, |axis| axis.values.len())
+            self.steps()
         } else {
             let product = |all: usize, axis: &Axis| all.checked_mul(axis.values.len());
             let points = self.axes.iter().try_fold(1, product);
@@ -95,19 +96,60 @@ impl Grid {
                 )));
             }
         }
-        let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
-        if self.zip && lengths.windows(2).any(|pair| pair[0] != pair[1]) {
+        match self.zip {
+            true => self.check_steps(),
+            false => self.check_values(),
+        }
+    }
+
+    fn check_values(&self) -> Result<()> {
+        let mut axes = self.axes.iter();
+        match axes.find_map(|axis| Some((axis, axis.repeated()?))) {
+            Some((axis, value)) => Err(Error::Usage(format!(
+                "--set {}: {} is there twice",
+                short(&axis.path),
+                short(value)
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn check_steps(&self) -> Result<()> {
+        let steps = self.steps();
+        let fits = |axis: &Axis| axis.values.len() == 1 || axis.values.len() == steps;
+        if !self.axes.iter().all(fits) {
             let list: Vec<String> = self
                 .axes
                 .iter()
                 .map(|axis| format!("{} has {}", short(&axis.path), axis.values.len()))
                 .collect();
             return Err(Error::Usage(format!(
-                "--zip takes the values in step, so all must have as many: {}",
+                "--zip takes the values in step, so all must have as many, or one: {}",
                 list.join(", ")
             )));
         }
+        if steps.saturating_mul(self.axes.len()) > MOST_VALUES {
+            // Refused by their number, without comparing them all.
+            return Ok(());
+        }
+        let mut seen = HashMap::with_capacity(steps);
+        for step in 0..steps {
+            let values: Vec<&str> = self.axes.iter().map(|axis| in_step(axis, step)).collect();
+            if let Some(first) = seen.insert(values, step) {
+                return Err(Error::Usage(format!(
+                    "--zip: steps {} and {} have the same values",
+                    first + 1,
+                    step + 1
+                )));
+            }
+        }
         Ok(())
+    }
+
+    /// How many points axes in step have.
+    fn steps(&self) -> usize {
+        let lengths = self.axes.iter().map(|axis| axis.values.len());
+        lengths.max().unwrap_or(1)
     }
 
     /// Every run, the last axis changing fastest and the seeds faster still.
@@ -121,17 +163,14 @@ impl Grid {
             let (mut index, repeat) = (run / repeats as usize, (run % repeats as usize) as u64);
             let mut values: Vec<(String, String)> = Vec::new();
             for axis in self.axes.iter().rev() {
-                let place = if self.zip {
-                    index
+                let value = if self.zip {
+                    in_step(axis, index)
                 } else {
-                    index % axis.values.len()
+                    let place = index % axis.values.len();
+                    index /= axis.values.len();
+                    &axis.values[place]
                 };
-                values.push((axis.path.clone(), axis.values[place].clone()));
-                index = if self.zip {
-                    index
-                } else {
-                    index / axis.values.len()
-                };
+                values.push((axis.path.clone(), value.into()));
             }
             values.reverse();
             Point { values, repeat }
@@ -158,6 +197,14 @@ impl Point {
             all.push(set(SEED, &scene_seed.wrapping_add(self.repeat).to_string()));
         }
         all
+    }
+}
+
+/// An axis's value at a step; the only one at every step.
+fn in_step(axis: &Axis, step: usize) -> &str {
+    match axis.values.as_slice() {
+        [only] => only,
+        values => &values[step],
     }
 }
 
@@ -223,6 +270,16 @@ mod tests {
     }
 
     #[test]
+    fn in_step_values_may_come_again_and_one_stays() {
+        let grid = Grid {
+            axes: vec![axis("a=1,2,1"), axis("b=x"), axis("c=u,u,v")],
+            zip: true,
+            seeds: 1,
+        };
+        assert_eq!(words(&grid), ["1 x u#0", "2 x u#0", "1 x v#0"]);
+    }
+
+    #[test]
     fn what_does_not_fit_together() {
         let refused = |axes: &[&str], zip, seeds| {
             let grid = Grid {
@@ -232,7 +289,15 @@ mod tests {
             };
             grid.count().expect_err("a mistake").to_string()
         };
-        assert!(refused(&["a=1,2", "b=1"], true, 1).contains("a has 2, b has 1"));
+        assert!(refused(&["a=1,2,3", "b=1,2"], true, 1).contains("a has 3, b has 2"));
+        assert!(refused(&["a=1,2,1", "b=3,4,3"], true, 1).contains("steps 1 and 3"));
+        assert!(refused(&["a=1,2,1"], false, 1).contains("--set a: 1 is there twice"));
+        let endless = format!("a={0},{0}", "\u{7}".repeat(1 << 20));
+        let error = refused(&[&endless], false, 1);
+        assert!(
+            error.len() < 600 && !error.contains(char::is_control),
+            "{error}"
+        );
         assert!(refused(&["a=1,2", "a=3"], false, 1).contains("twice"));
         assert!(refused(&["render.seed=1,2"], false, 3).contains("one of the two"));
         assert!(refused(&["a=1..1000", "b=1..1000", "c=1..2"], false, 1).contains("over"));

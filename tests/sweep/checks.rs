@@ -15,9 +15,9 @@ fn mistakes_are_said_before_anything_is_made() {
         (
             &[
                 "--set",
-                "render.samples=1,2",
+                "render.samples=1,2,3",
                 "--set",
-                "render.max_bounces=1",
+                "render.max_bounces=1,2",
                 "--zip",
             ],
             2,

@@ -101,3 +101,29 @@ fn names_and_counts() {
         "What does materials.white.albedo change?"
     );
 }
+
+/// Many knobs in step are a list of variants, each called by what it changes.
+#[test]
+fn variants_are_called_by_what_they_change() {
+    let folder = folder();
+    let at = folder.path();
+    let sets = [
+        "light.sampler=inverse-cosine,cone,inverse-cosine",
+        "interruption.rule=survival,survival,none",
+        "scatter.diffuse=cosine,uniform,cosine",
+        "light.strategy=mis",
+    ];
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+    told(at, &[&sets[..], &["--zip"]].concat());
+    let report = report(at);
+    let groups = report["groups"].as_array().expect("groups").iter();
+    let names: Vec<_> = groups
+        .map(|group| group["name"].as_str().expect("a name"))
+        .collect();
+    let expected = [
+        "the first step",
+        "light.sampler=cone, scatter.diffuse=uniform",
+        "interruption.rule=none",
+    ];
+    assert_eq!(names, expected);
+}

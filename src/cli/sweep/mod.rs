@@ -25,7 +25,7 @@ use words::{command_line, describe, ended, not_made, several_sizes, spelled, tit
 /// Render a grid of knob values in one process
 ///
 /// Values are lists (a,b,c), whole numbers (1..8, both ends), steps (0..1+0.25) or factors
-/// (4..1024*2); several --set make a grid, --zip takes them in step. The folder gets runs.jsonl (one line
+/// (4..1024*2); several --set make a grid, --zip takes them in step (one value stays). The folder gets runs.jsonl (one line
 /// a run, only ever added to), images/ID.exr and .png, table.csv (one row a run, every knob) and
 /// report.html (one file, works offline): bias, noise and cost with intervals, and the pictures. A run
 /// that is finished there is not made again, unless its EXR is lost or damaged; a failed one is. After
