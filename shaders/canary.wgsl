@@ -95,7 +95,7 @@ fn scene_row(scene: CanaryScene, row: u32) -> vec4<u32> {
     switch row {
         case 0u: { return vec4<u32>(bitcast<vec3<u32>>(material.albedo), material.scatter); }
         case 1u: { return bitcast<vec4<u32>>(vec4<f32>(material.emission, material.survival)); }
-        case 2u: { return bitcast<vec4<u32>>(vec4<f32>(material.spread, material.lobe_mass, material.lobe_scale, 0.0)); }
+        case 2u: { return bitcast<vec4<u32>>(vec4<f32>(material.spread, material.lobe_mass, material.lobe_scale, material.shape)); }
         case 3u: { return bitcast<vec4<u32>>(vec4<f32>(lamp.center, lamp.radius)); }
         case 4u: { return vec4<u32>(bitcast<vec3<u32>>(lamp.emission), lamp.body); }
         case 5u: { return vec4<u32>(bitcast<u32>(lamp.weight_radius), 0u, 0u, 0u); }
@@ -111,8 +111,8 @@ fn scene_row(scene: CanaryScene, row: u32) -> vec4<u32> {
 
 fn job_row(row: u32) -> vec4<u32> {
     switch row {
-        case 0u: { return vec4<u32>(bitcast<vec3<u32>>(job.camera.forward), 0u); }
-        case 1u: { return vec4<u32>(bitcast<vec3<u32>>(job.camera.right), 0u); }
+        case 0u: { return bitcast<vec4<u32>>(vec4<f32>(job.camera.forward, job.camera.aperture)); }
+        case 1u: { return bitcast<vec4<u32>>(vec4<f32>(job.camera.right, job.camera.focus)); }
         case 2u: { return vec4<u32>(bitcast<vec3<u32>>(job.camera.down), 0u); }
         case 3u: { return vec4<u32>(bitcast<vec2<u32>>(job.camera.pixel), 0u, 0u); }
         case 4u: { return vec4<u32>(bitcast<vec3<u32>>(job.pole.x), 0u); }

@@ -11,7 +11,7 @@ struct PointsJob {
     pole: Basis,
     // Where the lamp is seen from.
     receiver: vec3<f32>,
-    // 1 where the receiver is inside the lamp.
+    // 1 where the receiver is inside the lamp, or the arriving ray inside the body.
     inside: u32,
     // Surface normal and arriving direction for scattering, unit length.
     normal: vec3<f32>,
@@ -52,7 +52,7 @@ fn draw_light(u: vec4<f32>) -> Draw {
 }
 
 fn draw_scatter(u: vec4<f32>) -> Draw {
-    let scattered = sample_scatter(job.material, job.normal, job.incoming, u.xy);
+    let scattered = sample_scatter(job.material, job.normal, job.incoming, job.inside == 1u, u.xy);
     let useful = select(0u, 1u, dot(scattered.direction, job.normal) > 0.0);
     return Draw(scattered.direction, scattered.density, useful, 0u, 0u, 0u);
 }

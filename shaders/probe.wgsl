@@ -8,6 +8,7 @@
 // #import sphere
 // #import box
 // #import scatter
+// #import glass
 // #import light
 // #import interruption
 
@@ -39,7 +40,7 @@ fn crossing_output(crossing: Crossing) -> Output {
 
 fn probe_material(in: Input) -> Material {
     let kind = u32(in.d.x);
-    return Material(vec3<f32>(0.5, 0.25, 1.0), kind, vec3<f32>(0.0), 1.0, in.d.y, in.d.z, in.d.w, 0.0);
+    return Material(vec3<f32>(0.5, 0.25, 1.0), kind, vec3<f32>(0.0), 1.0, in.d.y, in.d.z, in.d.w, in.a.w);
 }
 
 fn probe_lamp(in: Input) -> Lamp {
@@ -89,7 +90,7 @@ fn probe(in: Input) -> Output {
             return Output(vec4<f32>(face.point, 0.0), vec4<f32>(face.normal, 0.0));
         }
         case PROBE_SAMPLE_SCATTER: {
-            let scattered = sample_scatter(probe_material(in), in.a.xyz, in.b.xyz, in.c.xy);
+            let scattered = sample_scatter(probe_material(in), in.a.xyz, in.b.xyz, in.b.w == 1.0, in.c.xy);
             return Output(vec4<f32>(scattered.direction, scattered.density), vec4<f32>(scattered.weight, 0.0));
         }
         case PROBE_EVALUATE_SCATTER: {
@@ -112,6 +113,15 @@ fn probe(in: Input) -> Output {
         case PROBE_SURVIVAL: {
             let probability = survival_probability(in.a.x, in.b.xyz, in.c.xyz);
             return Output(vec4<f32>(probability, survival_weight(probability), 0.0, 0.0), zero);
+        }
+        case PROBE_FRESNEL: {
+            let parts = fresnel(in.a.x, in.a.y);
+            return Output(vec4<f32>(parts.reflectance, parts.cosine, 0.0, 0.0), zero);
+        }
+        case PROBE_LENS: {
+            let camera = Camera(in.a.xyz, in.a.w, in.b.xyz, in.b.w, in.c.xyz, vec2<f32>(0.125));
+            let lens = sample_lens(camera, in.d.xy);
+            return Output(vec4<f32>(lens, 0.0), vec4<f32>(lens_direction(camera, in.d.zw, lens), 0.0));
         }
         case PROBE_FINITE: {
             return Output(vec4<f32>(select(0.0, 1.0, all_finite(in.a.xyz)), 0.0, 0.0, 0.0), zero);

@@ -5,6 +5,8 @@
 // below the surface are absorbed: they are drawn with their density and carry nothing.
 
 // #import maths
+// #import rough
+// #import glass
 
 override SCATTER_DIFFUSE: u32;
 override SCATTER_BOUND: u32;
@@ -21,12 +23,13 @@ struct Material {
     lobe_mass: f32,
     // sqrt(2 / pi) / (spread * lobe_mass * 2 pi).
     lobe_scale: f32,
-    _pad0: f32,
+    // Rough: alpha. Glass: the index of refraction. Else 0.
+    shape: f32,
 }
 
 struct Scattered {
     direction: vec3<f32>,
-    // Of drawing this direction; 0 where it has none (the mirror, the ring that a clamp piles up).
+    // Of drawing this direction; 0 where it has none (mirror, glass, the ring that a clamp piles up).
     density: f32,
     // Scattering function times cosine over density; zero where the light is absorbed.
     weight: vec3<f32>,
@@ -80,12 +83,20 @@ fn sample_directional(material: Material, normal: vec3<f32>, incoming: vec3<f32>
     );
 }
 
-fn sample_scatter(material: Material, normal: vec3<f32>, incoming: vec3<f32>, u: vec2<f32>) -> Scattered {
+// `inside`: whether the arriving ray is inside the body.
+fn sample_scatter(material: Material, normal: vec3<f32>, incoming: vec3<f32>, inside: bool, u: vec2<f32>) -> Scattered {
     if material.scatter == SURFACE_DIFFUSE {
         return sample_diffuse(material, normal, u);
     }
     if material.scatter == SURFACE_DIRECTIONAL {
         return sample_directional(material, normal, incoming, u);
+    }
+    if ROUGH_SURFACES == 1u && material.scatter == SURFACE_ROUGH {
+        let rough = sample_rough(material.shape, normal, incoming, u);
+        return Scattered(rough.direction, rough.density, material.albedo * rough.share);
+    }
+    if GLASS_SURFACES == 1u && material.scatter == SURFACE_GLASS {
+        return Scattered(sample_glass(material.shape, inside, normal, incoming, u.x), 0.0, material.albedo);
     }
     return Scattered(mirror_direction(normal, incoming), 0.0, material.albedo);
 }
@@ -100,6 +111,9 @@ fn scatter_density(material: Material, normal: vec3<f32>, incoming: vec3<f32>, o
     if material.scatter == SURFACE_DIRECTIONAL {
         return lobe_density(material, distance(outgoing, mirror_direction(normal, incoming)));
     }
+    if ROUGH_SURFACES == 1u && material.scatter == SURFACE_ROUGH {
+        return rough_density(material.shape, normal, incoming, outgoing);
+    }
     return 0.0;
 }
 
@@ -109,12 +123,24 @@ fn evaluate_lambert(material: Material, normal: vec3<f32>, outgoing: vec3<f32>) 
 }
 
 // `evaluate_scatter` where `scatter_density` of the two directions is known.
-fn evaluate_by_density(material: Material, normal: vec3<f32>, outgoing: vec3<f32>, density: f32) -> vec3<f32> {
-    let lobe = material.albedo * select(0.0, density, dot(normal, outgoing) > 0.0);
+fn evaluate_by_density(
+    material: Material,
+    normal: vec3<f32>,
+    incoming: vec3<f32>,
+    outgoing: vec3<f32>,
+    density: f32,
+) -> vec3<f32> {
+    var lobe = material.albedo * select(0.0, density, dot(normal, outgoing) > 0.0);
+    if ROUGH_SURFACES == 1u && material.scatter == SURFACE_ROUGH {
+        let arrival = rough_arrival_of(material.shape, normal, incoming);
+        lobe *= rough_share(material.shape, arrival, dot(normal, outgoing));
+    }
     return select(lobe, evaluate_lambert(material, normal, outgoing), material.scatter == SURFACE_DIFFUSE);
 }
 
-// Scattering function times cosine; the part with a density only. The lobe's is albedo times its density.
+// Scattering function times cosine; the part with a density only. The directional lobe's is albedo times its
+// density; the rough one's has a share of that.
 fn evaluate_scatter(material: Material, normal: vec3<f32>, incoming: vec3<f32>, outgoing: vec3<f32>) -> vec3<f32> {
-    return evaluate_by_density(material, normal, outgoing, scatter_density(material, normal, incoming, outgoing));
+    let density = scatter_density(material, normal, incoming, outgoing);
+    return evaluate_by_density(material, normal, incoming, outgoing, density);
 }

@@ -67,7 +67,11 @@ struct Path {
 fn start_path(pixel: vec2<u32>, sample: vec2<u32>) -> Path {
     let key = random_key(job.seed, pixel, sample);
     let film = sample_film(pixel, random_unit(key, 0u, 0u).xy);
-    let ray = Ray(vec3<f32>(0.0), camera_direction(job.camera, film), 0u, false);
+    var ray = Ray(vec3<f32>(0.0), camera_direction(job.camera, film), 0u, false);
+    if LENS == 1u {
+        ray.origin = sample_lens(job.camera, random_unit(key, 0u, 1u).xy);
+        ray.direction = lens_direction(job.camera, film, ray.origin);
+    }
     return Path(key, ray, vec3<f32>(1.0), vec3<f32>(0.0), 0u, 0.0, 0u, true);
 }
 
@@ -120,7 +124,7 @@ fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: ve
     let density = scatter_density(material, surface.normal, incoming, light.direction);
     var reflected = evaluate_lambert(material, surface.normal, light.direction);
     if LIGHT_DIRECT == LIGHT_DIRECT_BSDF {
-        reflected = evaluate_by_density(material, surface.normal, light.direction, density);
+        reflected = evaluate_by_density(material, surface.normal, incoming, light.direction, density);
     }
     var weight = light.weight;
     if LIGHT_STRATEGY == LIGHT_STRATEGY_MIS {
@@ -157,10 +161,16 @@ fn last_ray_counts(scattered: Scattered) -> bool {
 
 // The ray that scattering at a surface makes of the path; the path ends where it carries nothing.
 fn scatter_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, u: vec2<f32>) {
-    let scattered = sample_scatter(material_at(surface.material), surface.normal, (*path).ray.direction, u);
+    let material = material_at(surface.material);
+    let scattered = sample_scatter(material, surface.normal, (*path).ray.direction, surface.inside, u);
     (*path).throughput *= scattered.weight;
     (*path).density = scattered.density;
     (*path).ray = Ray(origin, scattered.direction, surface.body, surface.inside);
+    // What goes through starts on the other side. Below any other surface the path carries nothing.
+    if GLASS_SURFACES == 1u && dot(scattered.direction, surface.normal) < 0.0 {
+        (*path).ray.origin = offset_origin(surface.point, -surface.normal);
+        (*path).ray.inside = !surface.inside;
+    }
     (*path).vertex += 1u;
     let useful = (*path).vertex < job.max_bounces || last_ray_counts(scattered);
     (*path).alive = useful && largest((*path).throughput) > 0.0;

@@ -12,12 +12,14 @@
 //! | `pinhole` | the ellipse that a sphere is in a picture |
 //! | `seen` | what is seen directly, and nothing at all: the very bits |
 //! | `view` | Lambert's floor from head-on to grazing |
+//! | `rough` | a lone rough mirror under an even sky: rho L, less what facets hide, by quadrature |
+//! | `glass` | clear glass under an even sky, which cannot be seen; a slab of glass; rooms with glass |
+//! | `lens` | the circle of confusion |
 //! | `literal` | the paper's weight: its bias by quadrature |
 //! | `agreement` | no closed form: all unbiased settings agree with one long render |
 //!
-//! `cross` crosses them with the knobs that must not matter. Two forms that others use have no
-//! counterpart: a point light in the middle of a sphere, and a glass box seen head-on; here
-//! are no point lights and no glass.
+//! `cross` crosses them with the knobs that must not matter. One form that others use has no
+//! counterpart: a point light in the middle of a sphere; here are no point lights.
 //!
 //! Every comparison is one of [`support::gate::Form`]'s: a mean within 4 standard errors of the truth
 //! (p = 6.3e-5, two-sided), or within 1e-5 of it, at a standard error of 0.2 % of it or less; or, where an
@@ -34,11 +36,14 @@ mod closed_forms {
     mod cross;
     mod crowd;
     mod enclosure;
+    mod glass;
     mod lamp;
+    mod lens;
     mod literal;
     mod lobe;
     mod panel;
     mod pinhole;
+    mod rough;
     mod seen;
     mod shade;
     mod view;

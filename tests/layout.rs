@@ -88,7 +88,9 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
             "Camera",
             layout!(Camera {
                 forward,
+                aperture,
                 right,
+                focus,
                 down,
                 pixel
             }),
@@ -126,7 +128,8 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 survival,
                 spread,
                 lobe_mass,
-                lobe_scale
+                lobe_scale,
+                shape
             }),
         ),
         (

@@ -13,6 +13,7 @@ mod support;
 
 mod metamorphic {
     mod colour;
+    mod gloss;
     mod lamps;
     mod length;
     mod order;

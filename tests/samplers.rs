@@ -21,6 +21,7 @@ mod samplers {
     mod light;
     mod mass;
     mod poles;
+    mod rough;
     mod sampling;
     mod scatter;
 }

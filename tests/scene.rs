@@ -110,6 +110,12 @@ const CASES: &[Case] = &[
     ("survival = 0.75", "survival = 1.01", "15:12", &["`materials.white.survival` must be 0 to 1"]),
     ("[10, 10.0, 10.0]", "[10, -1, 10.0]", "17:17", &["`materials.lamp.emission` must be >= 0, not -1"]),
     ("survival = 0.75", "spread = 0.0", "15:10", &["must be > 0"]),
+    ("survival = 0.75", "roughness = 1.5", "15:13", &["`materials.white.roughness` must be 0 to 1, not 1.5"]),
+    ("survival = 0.75", "index = 0.9", "15:9", &["`materials.white.index` must be 1 to 4, not 0.9"]),
+    ("survival = 0.75", "ruffness = 0.1", "15:1", &["did you mean `roughness`?"]),
+    ("fov = 45.0", "aperture = -0.1", "6:12", &["`camera.aperture` must be >= 0, not -0.1"]),
+    ("fov = 45.0", "focus = 0", "6:9", &["`camera.focus` must be > 0, not 0"]),
+    ("fov = 45.0", "focus = \"near\"", "6:9", &["number"]),
     ("fov = 45.0", "fov = 0", "6:7", &["`camera.fov` must be > 0 and < 180, not 0"]),
     ("fov = 45.0", "fov = 180.0", "6:7", &["> 0 and < 180"]),
     ("fov = 45.0", "fov = 179.999999999999", "6:7", &["> 0 and < 180"]),
@@ -118,7 +124,7 @@ const CASES: &[Case] = &[
     ("width = 256\nheight = 128", "width = 32768\nheight = 8193", "8:9", &["32768 x 8193", "2^28"]),
     ("samples = 64", "samples = 0", "11:11", &["1 to 2147483647"]),
     // Choices and names.
-    ("survival = 0.75", "scatter = \"difuse\"", "15:11", &["must be one of diffuse, directional, mirror", "did you mean `diffuse`?"]),
+    ("survival = 0.75", "scatter = \"difuse\"", "15:11", &["must be one of diffuse, directional, mirror, rough, glass", "did you mean `diffuse`?"]),
     ("material = \"lamp\"", "material = \"lamb\"", "21:12", &["unknown material `lamb`", "did you mean `lamp`?"]),
     ("material = \"white\"", "material = \"zz\"", "26:12", &["the materials are lamp, white"]),
     ("[materials.white]", "[materials.\"a=b\"]", "13:12", &["a material's name must not hold"]),
@@ -348,6 +354,11 @@ fn what_is_suspect_is_warned_of_with_its_place() {
         (change("material = \"lamp\"", "material = \"white\""), 16, "no shape has the material `lamp`"),
         (change("[image]", rule).replace("survival = 0.75", "survival = 0.5"), 15, "not above the square"),
         (change("samples = 64", "samples = 1"), 10, "one path a pixel"),
+        (change("survival = 0.75", "roughness = 0.1"), 13, "`white` is diffuse, and `roughness` is for rough surfaces alone"),
+        (change("survival = 0.75", "scatter = \"rough\"\nspread = 0.1"), 13, "`spread` is for directional surfaces alone"),
+        (change("survival = 0.75", "scatter = \"mirror\"\nindex = 2"), 13, "`index` is for glass surfaces alone"),
+        (change("fov = 45.0", "focus = 2"), 2, "a `focus` and no `aperture`"),
+        (change("survival = 0.75", "scatter = \"glass\"") + room, 18, "stands inside glass, `boxes.1`"),
     ];
     for (text, line, words) in cases {
         let warnings = parse(&text).unwrap().warnings();

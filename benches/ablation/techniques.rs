@@ -132,7 +132,7 @@ pub const TECHNIQUES: &[Technique] = &[
         instead: "once for the light reflected and once for its weight",
         expected: [1.02, 1.02],
         edits: &[Edit::Text(
-            "evaluate_by_density(material, surface.normal, light.direction, density);",
+            "evaluate_by_density(material, surface.normal, incoming, light.direction, density);",
             "evaluate_scatter(material, surface.normal, incoming, light.direction);",
         )],
         ..PLAIN

@@ -23,6 +23,7 @@ enum Sampler {
 #[command(after_help = "Examples:
   lampray points light --set light.sampler=uniform-angles -n 800 -o poles.svg
   lampray points scatter --scatter directional --spread 0.3 --incidence 45 -o lobe.png
+  lampray points scatter --scatter rough --roughness 0.4 --incidence 75 -n 100000 > facets.csv
   lampray points light -n 100000 --set light.sampler=gaussian > points.csv")]
 pub(crate) struct Command {
     #[arg(value_enum)]
@@ -37,12 +38,21 @@ pub(crate) struct Command {
     /// Light: distance from the lamp's centre to the receiver, in lamp radii
     #[arg(long, default_value_t = 4.0, value_name = "RADII")]
     distance: f64,
-    /// Scatter: diffuse, directional or mirror
+    /// Scatter: diffuse, directional, mirror, rough or glass
     #[arg(long, default_value = "directional", value_name = "NAME")]
     scatter: String,
     /// Scatter: sigma of the directional angle, radians
     #[arg(long, default_value_t = 0.3, value_name = "RADIANS")]
     spread: f64,
+    /// Scatter: GGX alpha of a rough mirror
+    #[arg(long, default_value_t = 0.3, value_name = "ALPHA")]
+    roughness: f64,
+    /// Scatter: refractive index of glass
+    #[arg(long, default_value_t = 1.5, value_name = "INDEX")]
+    index: f64,
+    /// Scatter: the ray arrives from inside the body; only glass makes a difference
+    #[arg(long)]
+    inside: bool,
     /// Scatter: angle between the arriving ray and the normal, degrees
     #[arg(long, default_value_t = 45.0, value_name = "DEGREES")]
     incidence: f64,
@@ -61,6 +71,9 @@ impl Command {
             Sampler::Scatter => Kind::Scatter {
                 scatter: points::scatter(&self.scatter)?,
                 spread: within("--spread", self.spread, 1e-12, 1e12)?,
+                roughness: within("--roughness", self.roughness, 0.0, 1.0)?,
+                index: within("--index", self.index, 1.0, 4.0)?,
+                inside: self.inside,
                 incidence: within("--incidence", self.incidence, 0.0, 89.999)?,
             },
         };

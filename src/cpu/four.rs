@@ -81,7 +81,7 @@ impl Spheres {
         Self {
             center: gather(center),
             radius: lanes(radius),
-            body: numbers(first_body),
+            body: numbers(first_body, spheres.len()),
         }
     }
 
@@ -130,7 +130,7 @@ impl Boxes {
                 of(|shape| shape.axis_y, 1.0),
                 of(|shape| shape.axis_z, 1.0),
             ],
-            body: numbers(first_body),
+            body: numbers(first_body, boxes.len()),
         }
     }
 
@@ -171,9 +171,16 @@ fn lanes(v: impl Fn(usize) -> f32) -> Vec4 {
     Vec4::from_array(std::array::from_fn(v))
 }
 
-/// Numbers of four bodies; f32 holds them exactly up to 2^24.
-fn numbers(first: usize) -> Vec4 {
-    lanes(|lane| (first + lane) as f32)
+/// Numbers of up to four bodies; f32 holds them exactly up to 2^24. Where no body stands it is one that no
+/// ray starts on: the next number is that of a body among the next four.
+fn numbers(first: usize, count: usize) -> Vec4 {
+    lanes(|lane| {
+        if lane < count {
+            (first + lane) as f32
+        } else {
+            -1.0
+        }
+    })
 }
 
 /// All bodies of a scene in fours.
@@ -235,12 +242,13 @@ mod tests {
         (Vec3::new(u[0], u[1], u[2]) - 0.5) * scale
     }
 
-    /// A ray from `origin` with every kind of source: none, the body's own sides, another body.
-    fn rays(number: u32) -> [Ray; 4] {
+    /// A ray from `origin` with every kind of source: none, the body's own sides, another body, and the
+    /// inner side of the one that comes after these.
+    fn rays(number: u32) -> [Ray; 5] {
         let key = random_key([7, 0], [1, 2], [number, 0]);
         let origin = vector(random_unit(key, 0, 0), 6.0);
         let direction = vector(random_unit(key, 1, 0), 2.0).normalize_or(Vec3::X);
-        [(0, false), (2, false), (2, true), (6, true)].map(|(source, inside)| Ray {
+        [(0, false), (2, false), (2, true), (6, true), (4, true)].map(|(source, inside)| Ray {
             origin,
             direction,
             source,

@@ -51,6 +51,7 @@ fn draw_scatter(strategy: &Strategy, job: &PointsJob, u: Vec4) -> Draw {
         &job.material,
         normal,
         incoming,
+        job.inside == 1,
         Vec2::new(u.x, u.y),
     );
     let useful = u32::from(scattered.direction.dot(normal) > 0.0);

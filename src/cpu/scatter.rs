@@ -1,6 +1,8 @@
 //! Twin of `shaders/scatter.wgsl`: how surfaces send light on.
 
+use super::glass::sample_glass;
 use super::maths::*;
+use super::rough::{rough_arrival_of, rough_density, rough_share, sample_rough};
 use crate::knobs::{Scatter, ScatterBound, ScatterDiffuse};
 use crate::pack::{Material, Strategy};
 use glam::{Vec2, Vec3};
@@ -8,6 +10,8 @@ use std::f32::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 const DIFFUSE: u32 = Scatter::Diffuse as u32;
 const DIRECTIONAL: u32 = Scatter::Directional as u32;
+const ROUGH: u32 = Scatter::Rough as u32;
+const GLASS: u32 = Scatter::Glass as u32;
 
 /// A drawn direction.
 #[derive(Clone, Copy, Debug)]
@@ -94,21 +98,37 @@ fn sample_directional(
     }
 }
 
+/// `inside`: whether the arriving ray is inside the body.
 #[inline(always)]
 pub fn sample_scatter(
     strategy: &Strategy,
     material: &Material,
     normal: Vec3,
     incoming: Vec3,
+    inside: bool,
     u: Vec2,
 ) -> Scattered {
+    let albedo = Vec3::from(material.albedo);
     match material.scatter {
         DIFFUSE => sample_diffuse(strategy, material, normal, u),
         DIRECTIONAL => sample_directional(strategy, material, normal, incoming, u),
+        ROUGH if strategy.rough_surfaces => {
+            let rough = sample_rough(material.shape, normal, incoming, u);
+            Scattered {
+                direction: rough.direction,
+                density: rough.density,
+                weight: albedo * rough.share,
+            }
+        }
+        GLASS if strategy.glass_surfaces => Scattered {
+            direction: sample_glass(material.shape, inside, normal, incoming, u.x),
+            density: 0.0,
+            weight: albedo,
+        },
         _ => Scattered {
             direction: mirror_direction(normal, incoming),
             density: 0.0,
-            weight: Vec3::from(material.albedo),
+            weight: albedo,
         },
     }
 }
@@ -130,6 +150,9 @@ pub fn scatter_density(
             material,
             outgoing.distance(mirror_direction(normal, incoming)),
         ),
+        (ROUGH, _) if strategy.rough_surfaces => {
+            rough_density(material.shape, normal, incoming, outgoing)
+        }
         _ => 0.0,
     }
 }
@@ -142,8 +165,10 @@ pub fn evaluate_lambert(material: &Material, normal: Vec3, outgoing: Vec3) -> Ve
 /// [`evaluate_scatter`] where [`scatter_density`] of the two directions is known.
 #[inline(always)]
 pub fn evaluate_by_density(
+    strategy: &Strategy,
     material: &Material,
     normal: Vec3,
+    incoming: Vec3,
     outgoing: Vec3,
     density: f32,
 ) -> Vec3 {
@@ -153,7 +178,12 @@ pub fn evaluate_by_density(
     if normal.dot(outgoing) <= 0.0 {
         return Vec3::ZERO;
     }
-    Vec3::from(material.albedo) * density
+    let lobe = Vec3::from(material.albedo) * density;
+    if strategy.rough_surfaces && material.scatter == ROUGH {
+        let arrival = rough_arrival_of(material.shape, normal, incoming);
+        return lobe * rough_share(material.shape, arrival, normal.dot(outgoing));
+    }
+    lobe
 }
 
 /// Scattering function times cosine; the part with a density only.
@@ -166,5 +196,5 @@ pub fn evaluate_scatter(
     outgoing: Vec3,
 ) -> Vec3 {
     let density = scatter_density(strategy, material, normal, incoming, outgoing);
-    evaluate_by_density(material, normal, outgoing, density)
+    evaluate_by_density(strategy, material, normal, incoming, outgoing, density)
 }

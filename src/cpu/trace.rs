@@ -1,6 +1,6 @@
 //! Twin of `shaders/trace.wgsl`: the vertices of a pixel's paths, one after the other.
 
-use super::camera::{camera_direction, sample_film};
+use super::camera::{camera_direction, lens_direction, sample_film, sample_lens};
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
 use super::maths::{Basis, greater, largest};
@@ -56,15 +56,20 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         let key = random_key(self.job.seed, pixel, sample);
         let u = random_unit(key, 0, 0);
         let film = sample_film(self.scene.strategy.filter, pixel, Vec2::new(u[0], u[1]));
-        let direction = camera_direction(&self.job.camera, film);
+        let mut ray = Ray {
+            origin: Vec3::ZERO,
+            direction: camera_direction(&self.job.camera, film),
+            source: 0,
+            inside: false,
+        };
+        if self.scene.strategy.lens {
+            let u = random_unit(key, 0, 1);
+            ray.origin = sample_lens(&self.job.camera, Vec2::new(u[0], u[1]));
+            ray.direction = lens_direction(&self.job.camera, film, ray.origin);
+        }
         Path {
             key,
-            ray: Ray {
-                origin: Vec3::ZERO,
-                direction,
-                source: 0,
-                inside: false,
-            },
+            ray,
             throughput: Vec3::ONE,
             radiance: Vec3::ZERO,
             vertex: 0,
@@ -151,7 +156,15 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         let reflected = match strategy.light_direct {
             LightDirect::Lambert => evaluate_lambert(material, surface.normal, light.direction),
             LightDirect::Bsdf => {
-                evaluate_by_density(material, surface.normal, light.direction, density)
+                let normal = surface.normal;
+                evaluate_by_density(
+                    strategy,
+                    material,
+                    normal,
+                    incoming,
+                    light.direction,
+                    density,
+                )
             }
         };
         let mut weight = light.weight;
@@ -204,6 +217,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             material,
             surface.normal,
             path.ray.direction,
+            surface.inside,
             u,
         );
         path.throughput *= scattered.weight;
@@ -214,6 +228,11 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             source: surface.body,
             inside: surface.inside,
         };
+        // What goes through starts on the other side. Below any other surface the path carries nothing.
+        if self.scene.strategy.glass_surfaces && scattered.direction.dot(surface.normal) < 0.0 {
+            path.ray.origin = offset_origin(surface.point, -surface.normal);
+            path.ray.inside = !surface.inside;
+        }
         path.vertex = path.vertex.wrapping_add(1);
         let useful = path.vertex < self.job.max_bounces || self.last_ray_counts(&scattered);
         path.alive = useful && largest(path.throughput) > 0.0;

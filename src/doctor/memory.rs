@@ -44,7 +44,7 @@ fn scene_rows(scene: &CanaryScene) -> [[u32; 4]; 13] {
     [
         bits(material.albedo, material.scatter),
         bits(material.emission, material.survival.to_bits()),
-        bits(lobe, 0),
+        bits(lobe, material.shape.to_bits()),
         bits(lamp.center, lamp.radius.to_bits()),
         bits(lamp.emission, lamp.body),
         [lamp.weight_radius.to_bits(), 0, 0, 0],
@@ -61,8 +61,8 @@ fn scene_rows(scene: &CanaryScene) -> [[u32; 4]; 13] {
 fn job_rows(job: &CanaryJob) -> [[u32; 4]; 9] {
     let [width, height] = job.camera.pixel;
     [
-        bits(job.camera.forward, 0),
-        bits(job.camera.right, 0),
+        bits(job.camera.forward, job.camera.aperture.to_bits()),
+        bits(job.camera.right, job.camera.focus.to_bits()),
         bits(job.camera.down, 0),
         [width.to_bits(), height.to_bits(), 0, 0],
         bits(job.pole.x, 0),

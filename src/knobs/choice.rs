@@ -66,6 +66,10 @@ choice! {
         Directional = "directional",
         /// The mirror direction alone.
         Mirror = "mirror",
+        /// A mirror of small facets turned at random (GGX).
+        Rough = "rough",
+        /// Clear glass: reflection and refraction by Fresnel's equations.
+        Glass = "glass",
     }
 }
 

@@ -120,10 +120,12 @@ use Kind::{Choice as Name, Material, Number, OptionalNumber, Pole, Triple};
 /// Every knob, in the order in which tables show them.
 #[rustfmt::skip]
 pub static KNOBS: &[Knob] = &[
-    knob("camera.position", Triple(Range::ANY), "scene units", Required, "where the pinhole is"),
+    knob("camera.position", Triple(Range::ANY), "scene units", Required, "where the pinhole or the middle of the lens is"),
     knob("camera.look_at", Triple(Range::ANY), "scene units", Required, "the point in the middle of the picture"),
     knob("camera.up", Triple(Range::ANY), "", three(0.0, 1.0, 0.0), "the direction that is up in the picture"),
     knob("camera.fov", Number(Range::open(0.0, 180.0)), "degrees", real(45.0), "vertical field of view"),
+    knob("camera.aperture", Number(Range::NOT_NEGATIVE), "scene units", real(0.0), "radius of a thin lens; 0 is a pinhole, in focus everywhere"),
+    knob("camera.focus", OptionalNumber(Range::POSITIVE), "scene units", Default(Value::Off), "with an aperture: distance along the view to the plane in focus; off is that of look_at"),
 
     knob("image.width", integer(1, 32768), "pixels", whole(256), "width of the picture"),
     knob("image.height", integer(1, 32768), "pixels", whole(256), "height of the picture"),
@@ -144,6 +146,8 @@ pub static KNOBS: &[Knob] = &[
     knob("materials.*.scatter", Name(Scatter::NAMES), "", Default(text("diffuse")), "how the surface sends light on"),
     knob("materials.*.albedo", Triple(Range::UNIT), "", three(0.75, 0.75, 0.75), "reflectance, R, G, B"),
     knob("materials.*.spread", Number(Range::POSITIVE), "radians", real(0.3), "directional only: sigma of the half-normal angle around the mirror direction"),
+    knob("materials.*.roughness", Number(Range::UNIT), "", real(0.3), "rough only: GGX alpha, 0 a mirror (as is all below 0.001), 1 very rough"),
+    knob("materials.*.index", Number(Range::closed(1.0, 4.0)), "", real(1.5), "glass only: refractive index; 1 is as good as air"),
     knob("materials.*.survival", Number(Range::UNIT), "", real(1.0), "the paper's threshold t: the probability that a path goes on"),
     knob("materials.*.emission", Triple(Range::NOT_NEGATIVE), "radiance", three(0.0, 0.0, 0.0), "light that the surface sends out, R, G, B"),
 

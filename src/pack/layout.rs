@@ -11,13 +11,13 @@ pub type Vec3 = [f32; 3];
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Camera {
     pub forward: Vec3,
-    pub _pad0: f32,
+    pub aperture: f32,
     pub right: Vec3,
-    pub _pad1: f32,
+    pub focus: f32,
     pub down: Vec3,
-    pub _pad2: f32,
+    pub _pad0: f32,
     pub pixel: [f32; 2],
-    pub _pad3: [f32; 2],
+    pub _pad1: [f32; 2],
 }
 
 /// `maths.wgsl`: three perpendicular unit vectors.
@@ -75,7 +75,7 @@ pub struct Material {
     pub spread: f32,
     pub lobe_mass: f32,
     pub lobe_scale: f32,
-    pub _pad0: f32,
+    pub shape: f32,
 }
 
 /// `light.wgsl`.

@@ -12,7 +12,7 @@ pub use strategy::{LastRay, RUN_LENGTH, Strategy};
 pub use traversal::Traversal;
 pub use tree::Hierarchy;
 
-use crate::knobs::{Choice, Pole, ScatterBound, Settings};
+use crate::knobs::{Choice, Pole, Scatter, ScatterBound, Settings};
 use crate::scene::{self, Scene};
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -125,13 +125,16 @@ fn basis(axes: DMat3) -> Basis {
 }
 
 fn pack_camera(camera: &scene::Camera, width: u32, height: u32) -> Camera {
-    let forward = (camera.look_at - camera.position).normalize();
+    let view = camera.look_at - camera.position;
+    let forward = view.normalize();
     let right = forward.cross(camera.up).normalize();
     let down = forward.cross(right);
     let half_height = (0.5 * camera.fov.to_radians()).tan();
     let half_width = half_height * f64::from(width) / f64::from(height);
     Camera {
         forward: single(forward),
+        aperture: camera.aperture as f32,
+        focus: camera.focus.unwrap_or(view.length()) as f32,
         right: single(right * half_width),
         down: single(down * half_height),
         pixel: [2.0 / width as f32, 2.0 / height as f32],
@@ -165,13 +168,17 @@ fn pack_material(material: &scene::Material, bound: ScatterBound) -> Material {
     let half_normal = std::f64::consts::FRAC_2_PI.sqrt() / (spread * mass);
     Material {
         albedo: single(material.albedo),
-        scatter: material.scatter.index(),
+        scatter: material.scattering().index(),
         emission: single(material.emission),
         survival: material.survival as f32,
         spread: spread as f32,
         lobe_mass: mass as f32,
         lobe_scale: (half_normal / std::f64::consts::TAU) as f32,
-        _pad0: 0.0,
+        shape: match material.scattering() {
+            Scatter::Rough => material.roughness as f32,
+            Scatter::Glass => material.index as f32,
+            Scatter::Diffuse | Scatter::Directional | Scatter::Mirror => 0.0,
+        },
     }
 }
 

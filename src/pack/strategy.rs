@@ -33,6 +33,9 @@ pub struct Strategy {
     pub interruption_weight: InterruptionWeight,
     pub interruption_order: InterruptionOrder,
     pub last_ray: LastRay,
+    pub rough_surfaces: bool,
+    pub glass_surfaces: bool,
+    pub lens: bool,
     pub sphere_count: u32,
     pub box_count: u32,
     pub rotated_box_count: u32,
@@ -47,6 +50,7 @@ impl Strategy {
     /// The scene's strategies; the counts are those of its packed arrays.
     pub fn new(scene: &Scene, spheres: u32, boxes: u32, rotated: u32, lamps: u32) -> Self {
         let settings = &scene.settings;
+        let some = |scatter| scene.materials.iter().any(|m| m.scattering() == scatter);
         Self {
             filter: settings.image.filter,
             light_sampler: settings.light.sampler,
@@ -60,6 +64,9 @@ impl Strategy {
             interruption_weight: settings.interruption.weight,
             interruption_order: settings.interruption.order,
             last_ray: last_ray(scene),
+            rough_surfaces: some(Scatter::Rough),
+            glass_surfaces: some(Scatter::Glass),
+            lens: scene.camera.aperture > 0.0,
             sphere_count: spheres,
             box_count: boxes,
             rotated_box_count: rotated,
@@ -71,7 +78,7 @@ impl Strategy {
     }
 
     /// Names and values of all override constants of all kernels.
-    pub fn overrides(&self) -> [(&'static str, u32); 19] {
+    pub fn overrides(&self) -> [(&'static str, u32); 22] {
         [
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
@@ -85,6 +92,9 @@ impl Strategy {
             ("INTERRUPTION_WEIGHT", self.interruption_weight.index()),
             ("INTERRUPTION_ORDER", self.interruption_order.index()),
             ("LAST_RAY", self.last_ray.index()),
+            ("ROUGH_SURFACES", u32::from(self.rough_surfaces)),
+            ("GLASS_SURFACES", u32::from(self.glass_surfaces)),
+            ("LENS", u32::from(self.lens)),
             ("SPHERE_COUNT", self.sphere_count),
             ("BOX_COUNT", self.box_count),
             ("ROTATED_BOX_COUNT", self.rotated_box_count),

@@ -24,6 +24,12 @@ pub enum Kind {
         scatter: Scatter,
         /// Radians.
         spread: f64,
+        /// GGX alpha.
+        roughness: f64,
+        /// Refractive index.
+        index: f64,
+        /// Whether the ray arrives from inside the body.
+        inside: bool,
         /// Of the arriving ray against the normal, degrees.
         incidence: f64,
     },
@@ -96,6 +102,9 @@ pub fn draw(device: &mut dyn Device, request: &Request) -> Result<Cloud> {
         Kind::Scatter {
             scatter,
             spread,
+            roughness,
+            index,
+            inside,
             incidence,
         } => match scatter {
             Scatter::Diffuse => format!(
@@ -107,6 +116,13 @@ pub fn draw(device: &mut dyn Device, request: &Request) -> Result<Cloud> {
                 scene.settings.scatter.bound
             ),
             Scatter::Mirror => format!("mirror, incidence {incidence} degrees"),
+            Scatter::Rough => {
+                format!("rough, roughness {roughness}, incidence {incidence} degrees")
+            }
+            Scatter::Glass => {
+                let side = if *inside { "inside" } else { "outside" };
+                format!("glass, index {index}, incidence {incidence} degrees from {side}")
+            }
         },
     };
     let draws = device.points(&packed.strategy, &job)?;
@@ -121,7 +137,11 @@ pub fn draw(device: &mut dyn Device, request: &Request) -> Result<Cloud> {
 fn scene_of(request: &Request) -> Result<Scene> {
     let mut knobs = request.knobs.clone();
     if let Kind::Scatter {
-        scatter, spread, ..
+        scatter,
+        spread,
+        roughness,
+        index,
+        ..
     } = &request.kind
     {
         let set = |key: &str, value: String, flag: &str| {
@@ -130,14 +150,18 @@ fn scene_of(request: &Request) -> Result<Scene> {
         };
         knobs.push(set("scatter", scatter.name().into(), "--scatter"));
         knobs.push(set("spread", format!("{spread:e}"), "--spread"));
+        knobs.push(set("roughness", format!("{roughness:e}"), "--roughness"));
+        knobs.push(set("index", format!("{index:e}"), "--index"));
     }
     Scene::parse("points", SCENE, &knobs)
 }
 
 fn job_of(packed: &Packed, request: &Request) -> PointsJob {
-    let (distance, incidence, scattering) = match request.kind {
-        Kind::Light { distance } => (distance, 0.0, 0),
-        Kind::Scatter { incidence, .. } => (4.0, incidence, 1),
+    let (distance, incidence, scattering, inside) = match request.kind {
+        Kind::Light { distance } => (distance, 0.0, 0, distance < 1.0),
+        Kind::Scatter {
+            incidence, inside, ..
+        } => (4.0, incidence, 1, inside),
     };
     let (sine, cosine) = incidence.to_radians().sin_cos();
     PointsJob {
@@ -145,7 +169,7 @@ fn job_of(packed: &Packed, request: &Request) -> PointsJob {
         material: packed.materials[0],
         pole: packed.pole,
         receiver: [0.0, 0.0, distance as f32],
-        inside: u32::from(distance < 1.0),
+        inside: u32::from(inside),
         normal: [0.0, 0.0, 1.0],
         count: request.count,
         incoming: [sine as f32, 0.0, -cosine as f32],

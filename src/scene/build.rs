@@ -192,6 +192,8 @@ impl Builder<'_, '_, '_> {
             look_at: self.single("camera.look_at").triple(),
             up: self.single("camera.up").triple(),
             fov: self.single("camera.fov").number(),
+            aperture: self.single("camera.aperture").number(),
+            focus: self.single("camera.focus").optional(),
         };
         if complete {
             self.view(&camera);

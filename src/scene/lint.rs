@@ -5,7 +5,7 @@ use super::load::without_mark;
 use super::places::Places;
 use super::solid::Solid;
 use super::{Material, Scene};
-use crate::knobs::{InterruptionRule, InterruptionWeight, short};
+use crate::knobs::{InterruptionRule, InterruptionWeight, Scatter, find, short};
 use codespan_reporting::diagnostic::Severity;
 use glam::DVec3;
 
@@ -29,6 +29,7 @@ impl Scene {
         lint.unused();
         lint.closed();
         lint.survival();
+        lint.idle_knobs();
         lint.one_sample();
         let found = lint.found;
         if found.is_empty() {
@@ -113,7 +114,13 @@ impl<'a> Lint<'a> {
                     Some(number) => format!("boxes.{number}"),
                     None => format!("spheres.{other}"),
                 };
-                let (how, note) = if distance <= -lamp.radius {
+                let glass = self.material(solid).scatter == Scatter::Glass;
+                let (how, note) = if glass && distance <= -lamp.radius {
+                    (
+                        "stands inside glass,",
+                        "shadow rays do not go through glass: its light outside comes by hits alone",
+                    )
+                } else if distance <= -lamp.radius {
                     ("stands inside", "its light stays in there")
                 } else if matches!(solid, Solid::Box(_)) {
                     (
@@ -246,6 +253,37 @@ impl<'a> Lint<'a> {
                 )
             };
             self.warn(table, message, Some(note));
+        }
+    }
+
+    /// Knobs that another scattering than the material's has, and a focus without a lens.
+    fn idle_knobs(&mut self) {
+        let idle = |material: &Material| -> Option<(&'static str, Scatter)> {
+            let knobs = [
+                ("materials.*.spread", material.spread, Scatter::Directional),
+                ("materials.*.roughness", material.roughness, Scatter::Rough),
+                ("materials.*.index", material.index, Scatter::Glass),
+            ];
+            let set = |(path, value, scatter): (&'static str, f64, Scatter)| {
+                let usual = find(path)?.knob.default()?.number();
+                (material.scatter != scatter && value != usual).then_some((path, scatter))
+            };
+            knobs.into_iter().find_map(set)
+        };
+        let materials = self.scene.materials.iter();
+        let found = materials.filter_map(|material| Some((material, idle(material)?)));
+        for (material, (path, scatter)) in found.take(MOST_ALIKE) {
+            let key = path.rsplit('.').next().unwrap_or(path);
+            let (name, own) = (short(&material.name), material.scatter);
+            let message = format!("`{name}` is {own}, and `{key}` is for {scatter} surfaces alone");
+            let table = format!("materials.{}", material.name);
+            self.warn(table, message, Some("it changes nothing here"));
+        }
+        let camera = &self.scene.camera;
+        if camera.aperture == 0.0 && camera.focus.is_some() {
+            let message = "the camera has a `focus` and no `aperture`".into();
+            let note = "a pinhole is in focus everywhere; set `camera.aperture`";
+            self.warn("camera", message, Some(note));
         }
     }
 

@@ -57,7 +57,7 @@ pub struct Source {
     pub text: String,
 }
 
-/// A pinhole camera.
+/// A camera: a pinhole, or a thin lens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     pub position: DVec3,
@@ -65,6 +65,10 @@ pub struct Camera {
     pub up: DVec3,
     /// Vertical field of view in degrees, between 0 and 180.
     pub fov: f64,
+    /// Radius of the lens, scene units; 0 for a pinhole.
+    pub aperture: f64,
+    /// Distance along the view to the plane in focus, scene units; that of `look_at` if absent.
+    pub focus: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -75,13 +79,29 @@ pub struct Material {
     pub albedo: DVec3,
     /// Sigma of the half-normal angle of directional scattering, radians, > 0.
     pub spread: f64,
+    /// GGX alpha of a rough mirror, 0 to 1.
+    pub roughness: f64,
+    /// Refractive index of glass, 1 to 4.
+    pub index: f64,
     /// The paper's threshold t, 0 to 1.
     pub survival: f64,
     /// Radiance, >= 0.
     pub emission: DVec3,
 }
 
+/// Rough mirrors of a smaller alpha are mirrors. Their reflections are within 0.1 degrees of the mirror
+/// direction, and a 32-bit float tells where in such a lobe a direction is to a few thousandths only.
+const SMOOTH: f64 = 1e-3;
+
 impl Material {
+    /// How the devices treat it: rough mirrors that are all but smooth are mirrors.
+    pub fn scattering(&self) -> Scatter {
+        match self.scatter {
+            Scatter::Rough if self.roughness < SMOOTH => Scatter::Mirror,
+            other => other,
+        }
+    }
+
     pub fn emits(&self) -> bool {
         self.emission.max_element() > 0.0
     }

@@ -34,6 +34,8 @@ impl Builder<'_, '_, '_> {
             scatter: choice(&self.of(group, "materials", "scatter")),
             albedo: self.of(group, "materials", "albedo").triple(),
             spread: self.of(group, "materials", "spread").number(),
+            roughness: self.of(group, "materials", "roughness").number(),
+            index: self.of(group, "materials", "index").number(),
             survival: self.of(group, "materials", "survival").number(),
             emission: self.of(group, "materials", "emission").triple(),
         };

@@ -63,6 +63,8 @@ choice! {
         LightDensity = "light-density",
         Survival = "survival",
         Finite = "finite",
+        Fresnel = "fresnel",
+        Lens = "lens",
     }
 }
 

@@ -27,19 +27,19 @@ pub fn axes(z: DVec3) -> (DVec3, DVec3, DVec3) {
 
 /// Share of the draws that each cell should have, by midpoints; then the rest beyond the limit.
 pub fn shares(of: &Sampling, density: &Density) -> Vec<f64> {
-    const FINE: usize = 12;
+    let fine = of.midpoints;
     let (x, y, z) = axes(of.axis);
     let (high, wide) = (
-        of.limit / (POLAR * FINE) as f64,
-        TAU / (AROUND * FINE) as f64,
+        of.limit / (POLAR * fine) as f64,
+        TAU / (AROUND * fine) as f64,
     );
     let mut shares = vec![0.0; POLAR * AROUND];
-    for i in 0..POLAR * FINE {
+    for i in 0..POLAR * fine {
         let (sine, cosine) = ((i as f64 + 0.5) * high).sin_cos();
-        for j in 0..AROUND * FINE {
+        for j in 0..AROUND * fine {
             let (up, along) = ((j as f64 + 0.5) * wide).sin_cos();
             let v = sine * (along * x + up * y) + cosine * z;
-            shares[i / FINE * AROUND + j / FINE] += density(v) * sine * high * wide;
+            shares[i / fine * AROUND + j / fine] += density(v) * sine * high * wide;
         }
     }
     let rest = 1.0 - of.ring - shares.iter().sum::<f64>();

@@ -111,6 +111,7 @@ pub fn light(sampler: LightSampler, place: Place, pole_at_receiver: bool) -> Sam
             pole
         },
         limit,
+        midpoints: 12,
         density: Box::new(density),
         stated: Box::new(stated),
         ring: 0.0,

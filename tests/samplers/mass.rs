@@ -66,7 +66,7 @@ fn scattered(of: &Sampling, bench: Bench, directions: &[DVec3]) -> Vec<f64> {
         material.lobe_scale,
     ];
     let input = |v: &DVec3| ProbeInput {
-        a: four(normal, 0.0),
+        a: four(normal, material.shape),
         b: four(incoming, 0.0),
         c: four(narrow(*v), 0.0),
         d: [kind, spread, mass, scale],

@@ -1,6 +1,7 @@
 //! A sampler, what is asked of it, and what is known of it.
 
 use super::light::{Place, light};
+use super::rough::rough;
 use super::scatter::{diffuse, directional};
 use crate::support::bench::Bench;
 use glam::DVec3;
@@ -17,6 +18,8 @@ pub struct Sampling {
     /// Axis of the cells, and the polar angle that they reach to.
     pub axis: DVec3,
     pub limit: f64,
+    /// Of a side of a cell, by which its share is summed: more where the density ends within cells.
+    pub midpoints: usize,
     /// Of the drawn unit vectors, by area of the unit sphere.
     pub density: Density,
     /// From that to the density by solid angle that the renderer states; 0 for what is not seen.
@@ -81,6 +84,9 @@ pub fn samplings() -> Vec<Sampling> {
     all.extend(ScatterDiffuse::ALL.iter().map(|&law| diffuse(law)));
     for &bound in ScatterBound::ALL {
         all.extend([0.05, 0.3, 1.0].map(|spread| directional(bound, spread)));
+    }
+    for alpha in [0.1, 0.4, 1.0] {
+        all.extend([30.0, 80.0].map(|degrees| rough(alpha, degrees)));
     }
     all
 }

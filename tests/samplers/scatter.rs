@@ -66,6 +66,7 @@ pub fn diffuse(law: ScatterDiffuse) -> Sampling {
         job: scatter_job(Scatter::Diffuse, 1.0, 1.0, normal, incoming),
         axis: normal,
         limit: FRAC_PI_2,
+        midpoints: 12,
         density: Box::new(move |v| density(v.dot(normal))),
         stated: Box::new(move |v| density(v.dot(normal))),
         ring: 0.0,
@@ -103,6 +104,7 @@ pub fn directional(bound: ScatterBound, spread: f64) -> Sampling {
         job: scatter_job(Scatter::Directional, spread, mass, normal, incoming),
         axis: mirror,
         limit: FRAC_PI_2.min(5.0 * spread),
+        midpoints: 12,
         density: Box::new(density),
         stated: Box::new(density),
         ring: if bound == ScatterBound::Clamp {

@@ -56,19 +56,23 @@ pub fn all() -> Vec<Case> {
     let lights = lights.flat_map(|s| [sample_light_case(s), light_density_case(s)]);
     let survivals = survival_strategies().map(survival);
     let many = films.chain(scatters).chain(lights).chain(survivals);
-    single.into_iter().chain(many).collect()
+    single
+        .into_iter()
+        .chain(many)
+        .chain(crate::gloss::all())
+        .collect()
 }
 
-fn xyz(v: [f32; 4]) -> Vec3 {
+pub fn xyz(v: [f32; 4]) -> Vec3 {
     Vec3::new(v[0], v[1], v[2])
 }
 
-fn xy(v: [f32; 4]) -> Vec2 {
+pub fn xy(v: [f32; 4]) -> Vec2 {
     Vec2::new(v[0], v[1])
 }
 
 /// Up to eight numbers, the rest zero.
-fn eight(parts: &[&[f32]]) -> [f32; 8] {
+pub fn eight(parts: &[&[f32]]) -> [f32; 8] {
     let mut all = parts.iter().flat_map(|part| part.iter().copied());
     std::array::from_fn(|_| all.next().unwrap_or(0.0))
 }
@@ -78,7 +82,7 @@ fn absolute(units: f64) -> Tolerance {
     Box::new(move |_, _| [units * UNIT; 8])
 }
 
-fn case(
+pub fn case(
     name: &str,
     probe: Probe,
     inputs: Vec<ProbeInput>,
@@ -395,7 +399,7 @@ pub fn material(kind: Scatter, spread: f64, bound: ScatterBound) -> [f32; 4] {
     ]
 }
 
-fn material_of(input: &ProbeInput) -> Material {
+pub fn material_of(input: &ProbeInput) -> Material {
     Material {
         albedo: [0.5, 0.25, 1.0],
         scatter: input.d[0] as u32,
@@ -404,8 +408,21 @@ fn material_of(input: &ProbeInput) -> Material {
         spread: input.d[1],
         lobe_mass: input.d[2],
         lobe_scale: input.d[3],
-        _pad0: 0.0,
+        shape: input.a[3],
     }
+}
+
+/// The draw that the probe kernel makes of an input.
+pub fn scatter_of(of: &Strategy, material: &Material, input: &ProbeInput) -> scatter::Scattered {
+    let inside = input.b[3] == 1.0;
+    scatter::sample_scatter(
+        of,
+        material,
+        xyz(input.a),
+        xyz(input.b),
+        inside,
+        xy(input.c),
+    )
 }
 
 fn scatter_strategies() -> impl Iterator<Item = Strategy> {
@@ -451,8 +468,7 @@ fn sample_scatter_case(of: Strategy) -> Case {
     });
     let twin = move |input: &ProbeInput| {
         let material = material_of(input);
-        let drawn =
-            scatter::sample_scatter(&of, &material, xyz(input.a), xyz(input.b), xy(input.c));
+        let drawn = scatter_of(&of, &material, input);
         eight(&[
             &drawn.direction.to_array(),
             &[drawn.density],

@@ -67,7 +67,7 @@ impl Element for Material {
             number(self.spread),
             number(self.lobe_mass),
             number(self.lobe_scale),
-            number(self._pad0),
+            number(self.shape),
         ]
     }
 }
