@@ -100,6 +100,8 @@ pub mod compare;
 #[forbid(unsafe_code)]
 pub mod cpu;
 #[forbid(unsafe_code)]
+pub mod denoise;
+#[forbid(unsafe_code)]
 pub mod device;
 #[forbid(unsafe_code)]
 pub mod doctor;

@@ -1,5 +1,6 @@
 //! What `render` and `rerun` share: from a scene to files and a record.
 
+use super::denoise::beside;
 use super::keep::{KeepOptions, Keeper};
 use super::options::DeviceOptions;
 use super::progress::bar;
@@ -7,7 +8,8 @@ use super::signal::Watch;
 use super::{Output, note, print};
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::{Aov, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
+use crate::denoise;
+use crate::film::{Aov, Denoising, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
 use crate::pack::Rect;
 use crate::render::{self, Rendering, Spares, Task};
 use crate::scene::Scene;
@@ -24,6 +26,8 @@ pub(crate) struct Run<'a> {
     pub region: Rect,
     pub samples: Range<u64>,
     pub aovs: Vec<Aov>,
+    /// How to make the pictures beside the outputs, where they are wanted.
+    pub denoise: Option<Denoising>,
     pub device: &'a DeviceOptions,
     pub rules: StopRules,
     pub keep: KeepOptions,
@@ -53,14 +57,16 @@ impl Run<'_> {
             region: self.region,
             samples: self.samples.clone(),
             features: !self.aovs.is_empty(),
+            denoised: self.denoise.is_some(),
             target_error: self.rules.target_error,
             ..Task::new(self.scene)
         };
         render::refuse_too_large(&task)?;
-        let targets = Target::prepare_all(&self.outputs)?;
+        let (targets, denoised) = self.targets()?;
         let mut device = self.open(output)?;
         let wanted = render::record(&task, device.info(), &Rendering::new(&task));
-        let outputs = targets.iter().map(Target::identity).collect();
+        let outputs = targets.iter().chain(&denoised);
+        let outputs = outputs.map(Target::identity).collect();
         let (mut keeper, mut rendering) = match self.keep.keeper(&task, &wanted, outputs)? {
             Some((keeper, rendering)) => (Some(keeper), rendering),
             None => (None, Rendering::new(&task)),
@@ -73,16 +79,20 @@ impl Run<'_> {
             output,
         };
         let traced = session.trace(&mut device, &mut rendering, &mut keeper);
-        let (record, written) = session.write(&rendering, targets);
+        let (mut record, written) = session.write(&rendering, targets);
+        let smoothed = match traced.is_ok() && written.is_ok() {
+            true => session.denoise(&mut device, &rendering, denoised, record.as_mut()),
+            false => Ok(()),
+        };
         let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
-        let done = enough && traced.is_ok() && written.is_ok();
+        let done = enough && traced.is_ok() && written.is_ok() && smoothed.is_ok();
         let kept = session.keep(keeper, &rendering, done);
         if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
             warn_non_finite(&rendering.film);
             note(&summary(record));
             session.tell_of_error(&rendering);
         }
-        first_failure([traced, written, kept])?;
+        first_failure([traced, written, smoothed, kept])?;
         let Some(record) = record else {
             return Ok(());
         };
@@ -91,6 +101,17 @@ impl Run<'_> {
         } else {
             Ok(())
         }
+    }
+
+    /// The outputs, and the denoised pictures beside them.
+    fn targets(&self) -> Result<(Vec<Target>, Vec<Target>)> {
+        let mut all = self.outputs.clone();
+        if self.denoise.is_some() {
+            all.extend(beside(&self.outputs)?);
+        }
+        let mut targets = Target::prepare_all(&all)?;
+        let denoised = targets.split_off(self.outputs.len());
+        Ok((targets, denoised))
     }
 
     fn open(&self, output: Output) -> Result<Box<dyn Device>> {
@@ -222,6 +243,66 @@ impl Session<'_> {
         (Some(record), first_failure(written))
     }
 
+    /// Writes the pictures without noise, where they are wanted, and names them in the record that is printed. The
+    /// picture that they are made of has been written: a signal leaves that.
+    fn denoise(
+        &self,
+        device: &mut Box<dyn Device>,
+        rendering: &Rendering,
+        targets: Vec<Target>,
+        record: Option<&mut Record>,
+    ) -> Result<()> {
+        let (Some(by), Some(record)) = (self.run.denoise, record) else {
+            return Ok(());
+        };
+        let stopped = rendering.stopped == Some(Stop::Signal);
+        let picture = self.picture(rendering).filter(|_| !stopped);
+        let smoothed = match &picture {
+            Some(picture) => self.smooth(device, picture, by)?,
+            None => None,
+        };
+        let Some(mut smoothed) = smoothed else {
+            remark("stopped: no denoised picture is written", self.output);
+            return Ok(());
+        };
+        name_outputs(&mut smoothed.record, &targets);
+        record.outputs.extend(smoothed.record.outputs.clone());
+        tell_of_denoising(&smoothed.record, self.output);
+        if self.run.no_times {
+            smoothed.record.seconds = Seconds::default();
+            if let Some(denoised) = &mut smoothed.record.denoised {
+                denoised.seconds = 0.0;
+            }
+        }
+        first_failure(targets.into_iter().map(|target| target.write(&smoothed)))
+    }
+
+    /// The picture without noise; none where a signal came first.
+    fn smooth(
+        &self,
+        device: &mut Box<dyn Device>,
+        picture: &Picture,
+        by: Denoising,
+    ) -> Result<Option<Picture>> {
+        let bar = bar(self.output, "denoising {wide_bar} {percent}% {elapsed}");
+        bar.set_length(1000);
+        let mut watch = |share: f64| {
+            bar.set_position((share * 1000.0) as u64);
+            match self.run.signals.stopped() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let spares = Spares {
+            anew: &mut || self.run.device.open().map(|chosen| chosen.device),
+            any: self.run.device.any(),
+            tell: &mut |text| bar.suspend(|| remark(text, self.output)),
+        };
+        let smoothed = denoise::denoise(device, self.task, picture, by, spares, &mut watch);
+        bar.finish_and_clear();
+        smoothed
+    }
+
     /// Writes the picture so far, and lets the render go on.
     fn write_meanwhile(&self, rendering: &Rendering) {
         let written = Target::prepare_all(&self.run.outputs).and_then(|mut targets| {
@@ -269,6 +350,21 @@ fn progress_bar(output: Output, scene: &Scene) -> ProgressBar {
     );
     bar.set_prefix(name.to_string_lossy().into_owned());
     bar
+}
+
+/// One line on the pictures without noise.
+fn tell_of_denoising(record: &Record, output: Output) {
+    let Some(denoised) = record.denoised.filter(|_| !output.quiet) else {
+        return;
+    };
+    let sum = |mean: [f64; 3]| mean.iter().sum::<f64>();
+    let before = sum(denoised.mean_before);
+    let change = 100.0 * (sum(record.mean) - before) / before.max(f64::MIN_POSITIVE);
+    note(&format!(
+        "{}: denoised in {:.2} s; the mean changed by {change:+.2} %",
+        record.outputs.join(", "),
+        denoised.seconds
+    ));
 }
 
 fn warn_non_finite(film: &Film) {

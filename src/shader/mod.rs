@@ -21,6 +21,8 @@ choice! {
     Kernel, "KERNEL" {
         Trace = "trace",
         Features = "features",
+        Guides = "guides",
+        Denoise = "denoise",
         Points = "points",
         Probe = "probe",
         Canary = "canary",
@@ -92,8 +94,8 @@ fn constants() -> String {
 /// Only where the files of `shaders/` contradict each other, which the tests rule out.
 pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
     let scene = match kernel {
-        Kernel::Trace | Kernel::Features => arrays.declarations(),
-        Kernel::Points | Kernel::Probe | Kernel::Canary => String::new(),
+        Kernel::Trace | Kernel::Features | Kernel::Guides => arrays.declarations(),
+        Kernel::Points | Kernel::Probe | Kernel::Canary | Kernel::Denoise => String::new(),
     };
     join(kernel.name(), &(constants() + &scene), arrays.traversal())
 }
