@@ -30,8 +30,9 @@ struct Site {
     footprint: f32,
     // Relative to the eye.
     position: vec3<f32>,
-    // 0 where the light is not a number: then it takes part in nothing.
-    valid: f32,
+    // How far the surfaces within the pixel are from their mean: an exponent, as `site_distance` gives it. Below 0
+    // where the light is not a number: then it takes part in nothing.
+    spread: f32,
     // Mirrors on the way, and the shares of what emits, scatters around the mirror direction and is black.
     kind: vec4<f32>,
 }
@@ -83,7 +84,7 @@ fn smoothed_at(at: vec2<u32>) -> Estimate {
     let place = at.y * job.window.x + at.x;
     let site = sites[place];
     let own = estimates[place];
-    if site.valid == 0.0 {
+    if site.spread < 0.0 {
         return own;
     }
     // Sums of differences: pixels that all agree leave their bits alone.
@@ -98,11 +99,12 @@ fn smoothed_at(at: vec2<u32>) -> Estimate {
             }
             let index = u32(tap.y) * job.window.x + u32(tap.x);
             let other = estimates[index];
-            var exponent = site_distance(site, sites[index]);
+            // A pixel on an edge is like the pixels on both sides of it as much as its own parts are.
+            var exponent = site_distance(site, sites[index]) / (1.0 + site.spread);
             if job.only_variance == 0u {
                 exponent += light_distance(own, other);
             }
-            if sites[index].valid == 0.0 || exponent > FARTHEST {
+            if sites[index].spread < 0.0 || exponent > FARTHEST {
                 continue;
             }
             let weight = spline(x) * spline(y) * exp(-exponent);

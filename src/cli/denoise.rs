@@ -50,7 +50,10 @@ fn width(text: &str) -> std::result::Result<f64, String> {
 /// # Errors
 /// [`Error::Usage`] where that is none of them: a pipe has nothing beside it.
 pub(crate) fn beside(outputs: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    let named: Vec<_> = outputs.iter().filter_map(|path| denoised_name(path)).collect();
+    let named: Vec<_> = outputs
+        .iter()
+        .filter_map(|path| denoised_name(path))
+        .collect();
     if named.is_empty() {
         let message = "--denoise writes beside the outputs, and none of them is a file: give -o NAME.png or -o NAME.exr";
         return Err(Error::Usage(message.into()));

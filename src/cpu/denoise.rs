@@ -23,7 +23,7 @@ fn spline(offset: i32) -> f32 {
 }
 
 /// How far two pixels' surfaces are apart: the exponent of their weight.
-fn site_distance(job: &DenoiseJob, a: &Site, b: &Site) -> f32 {
+pub fn site_distance(job: &DenoiseJob, a: &Site, b: &Site) -> f32 {
     let (normal, other_normal) = (Vec3::from(a.normal), Vec3::from(b.normal));
     let turn = normal - other_normal;
     let across = Vec3::from(b.position) - Vec3::from(a.position);
@@ -45,7 +45,7 @@ fn smoothed_at(job: &DenoiseJob, sites: &[Site], estimates: &[Estimate], at: [u3
     let [width, height] = job.window;
     let place = at[1] as usize * width as usize + at[0] as usize;
     let (site, own) = (&sites[place], &estimates[place]);
-    if site.valid == 0.0 {
+    if site.spread < 0.0 {
         return *own;
     }
     let light = Vec3::from(own.light);
@@ -53,9 +53,8 @@ fn smoothed_at(job: &DenoiseJob, sites: &[Site], estimates: &[Estimate], at: [u3
     let (mut change, mut variance, mut weights) = (Vec3::ZERO, 0.0, 0.0);
     for y in -2..=2 {
         for x in -2..=2 {
-            let tap = [(0, x), (1, y)].map(|(axis, offset)| {
-                at[axis].checked_add_signed(offset * job.step as i32)
-            });
+            let tap = [(0, x), (1, y)]
+                .map(|(axis, offset)| at[axis].checked_add_signed(offset * job.step as i32));
             let (Some(column), Some(row)) = (tap[0], tap[1]) else {
                 continue;
             };
@@ -64,11 +63,12 @@ fn smoothed_at(job: &DenoiseJob, sites: &[Site], estimates: &[Estimate], at: [u3
             }
             let index = row as usize * width as usize + column as usize;
             let other = &estimates[index];
-            let mut exponent = site_distance(job, site, &sites[index]);
+            // A pixel on an edge is like the pixels on both sides of it as much as its own parts are.
+            let mut exponent = site_distance(job, site, &sites[index]) / (1.0 + site.spread);
             if job.only_variance == 0 {
                 exponent += light_distance(job, own, other);
             }
-            if sites[index].valid == 0.0 || exponent > FARTHEST {
+            if sites[index].spread < 0.0 || exponent > FARTHEST {
                 continue;
             }
             let weight = spline(x) * spline(y) * (-exponent).exp();
@@ -98,8 +98,14 @@ fn smoothed_at(job: &DenoiseJob, sites: &[Site], estimates: &[Estimate], at: [u3
 pub fn pass(job: &DenoiseJob, sites: &[Site], estimates: &[Estimate]) -> Vec<Estimate> {
     let [width, height] = job.size;
     let row = |y: u32| {
-        (0..width)
-            .map(move |x| smoothed_at(job, sites, estimates, [job.corner[0] + x, job.corner[1] + y]))
+        (0..width).map(move |x| {
+            smoothed_at(
+                job,
+                sites,
+                estimates,
+                [job.corner[0] + x, job.corner[1] + y],
+            )
+        })
     };
     (0..height).into_par_iter().flat_map_iter(row).collect()
 }

@@ -34,7 +34,10 @@ pub(super) fn estimates(picture: &Picture, shades: &[[f32; 3]]) -> Vec<Estimate>
             variance: (error * error).min(MOST),
         }
     };
-    (0..picture.pixels()).into_par_iter().map(estimate).collect()
+    (0..picture.pixels())
+        .into_par_iter()
+        .map(estimate)
+        .collect()
 }
 
 /// A pixel that is not finite takes part in nothing, whatever stands here for it.
@@ -53,7 +56,11 @@ pub(super) fn means(
         let change = Vec3::from(smoothed[pixel].light) - finite(mean / shade);
         // A weighted mean of what is not negative is not, but for rounding.
         let changed = (mean + shade * change).max(mean.min(Vec3::ZERO));
-        if change == Vec3::ZERO { mean.to_array() } else { changed.to_array() }
+        if change == Vec3::ZERO {
+            mean.to_array()
+        } else {
+            changed.to_array()
+        }
     };
     (0..picture.pixels()).into_par_iter().map(mean).collect()
 }

@@ -48,7 +48,7 @@ pub fn denoise<'a>(
     let began = Instant::now();
     let packed = Packed::by(task.scene, task.traversal);
     let mut hands = Hands::new(device, packed, spares)?;
-    let Some(lit) = sites::sites(&mut hands, task, picture, watch)? else {
+    let Some(lit) = sites::sites(&mut hands, task, picture, by, watch)? else {
         return Ok(None);
     };
     let estimates = light::estimates(picture, &lit.shades);

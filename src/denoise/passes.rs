@@ -30,7 +30,12 @@ pub(super) fn run(
     mut estimates: Vec<Estimate>,
     watch: &mut Watch,
 ) -> Result<Option<Vec<Estimate>>> {
-    let pass = |only_variance| move |number: u32| Pass { step: 1u32 << number, only_variance };
+    let pass = |only_variance| {
+        move |number: u32| Pass {
+            step: 1u32 << number,
+            only_variance,
+        }
+    };
     let spreads = (0..SPREADS).map(pass(true));
     let all: Vec<_> = spreads.chain((0..by.passes).map(pass(false))).collect();
     for (done, pass) in all.iter().enumerate() {
@@ -46,9 +51,20 @@ pub(super) fn run(
             let made = hands.ask(|device| device.denoise(&job, &own_sites, &own))?;
             put(&mut next, size[0], rect, &made);
         }
+        if pass.only_variance {
+            keep_larger(&mut next, &estimates);
+        }
         estimates = next;
     }
     Ok(Some(estimates))
+}
+
+/// A pixel that one rare bright path fell on is as uncertain as it is bright, whatever its neighbours say: with their
+/// variance it would stand out for good.
+fn keep_larger(spread: &mut [Estimate], own: &[Estimate]) {
+    for (spread, own) in spread.iter_mut().zip(own) {
+        spread.variance = spread.variance.max(own.variance);
+    }
 }
 
 /// The blocks of a picture, row by row.
@@ -65,6 +81,17 @@ fn blocks([width, height]: [u32; 2]) -> impl Iterator<Item = Rect> {
     })
 }
 
+/// A job that says only how differences are measured.
+pub(super) fn widths(by: Denoising) -> DenoiseJob {
+    let inverse_square = |width: f64| (1.0 / (width * width)) as f32;
+    DenoiseJob {
+        luminance: inverse_square(by.luminance),
+        normal: inverse_square(by.normal),
+        depth: inverse_square(by.depth),
+        ..DenoiseJob::default()
+    }
+}
+
 /// A block's job, and the window of the picture that it sees.
 fn job([width, height]: [u32; 2], by: Denoising, pass: Pass, rect: Rect) -> (DenoiseJob, Rect) {
     let apron = REACH * pass.step;
@@ -74,17 +101,13 @@ fn job([width, height]: [u32; 2], by: Denoising, pass: Pass, rect: Rect) -> (Den
         x1: (rect.x1 + apron).min(width),
         y1: (rect.y1 + apron).min(height),
     };
-    let inverse_square = |width: f64| (1.0 / (width * width)) as f32;
     let job = DenoiseJob {
         corner: [rect.x0 - around.x0, rect.y0 - around.y0],
         size: [rect.width(), rect.height()],
         window: [around.width(), around.height()],
         step: pass.step,
         only_variance: pass.only_variance.into(),
-        luminance: inverse_square(by.luminance),
-        normal: inverse_square(by.normal),
-        depth: inverse_square(by.depth),
-        _pad0: 0,
+        ..widths(by)
     };
     (job, around)
 }

@@ -2,10 +2,13 @@
 
 use super::Watch;
 use super::hands::Hands;
+use super::passes::widths;
+use crate::cpu::denoise::site_distance;
+use crate::cpu::maths::lesser;
 use crate::error::Result;
-use crate::film::Picture;
+use crate::film::{Denoising, Picture};
 use crate::knobs::{Choice, Scatter};
-use crate::pack::{Guide, Material, Packed, Rect, Site};
+use crate::pack::{DenoiseJob, Guide, Material, Packed, Rect, Site};
 use crate::render::Task;
 use glam::{Vec3, Vec4};
 
@@ -13,15 +16,17 @@ use glam::{Vec3, Vec4};
 const FINENESS: u32 = 3;
 /// Pixels of a block, each way: some hundred thousand rays, a fraction of a dispatch's half second.
 const BLOCK: [u32; 2] = [256, 48];
-/// Below this an albedo is black: what is divided by it would be anything.
+/// Below this a shade is black: what is divided by it would be anything.
 const BLACK: f32 = 1e-3;
+/// The largest spread: beyond, a pixel that the background shows through would be like everything.
+const WIDEST: f32 = 30.0;
 /// Guides are most of the rays, passes over so few pixels are short.
 const SHARE: f64 = 0.3;
 
 /// Sites and shades of a picture, row by row.
 pub(super) struct Lit {
     pub sites: Vec<Site>,
-    /// What the light was multiplied by on its last way to the eye: albedo and mirrors.
+    /// What the light was multiplied by on its last way to the eye: albedo and mirrors; or its emission.
     pub shades: Vec<[f32; 3]>,
 }
 
@@ -30,6 +35,7 @@ pub(super) fn sites(
     hands: &mut Hands,
     task: &Task,
     picture: &Picture,
+    by: Denoising,
     watch: &mut Watch,
 ) -> Result<Option<Lit>> {
     let region = task.region;
@@ -37,7 +43,7 @@ pub(super) fn sites(
         sites: vec![Site::default(); region.area()],
         shades: vec![[1.0; 3]; region.area()],
     };
-    let looks = Looks::new(&hands.packed);
+    let looks = Looks::new(&hands.packed, widths(by));
     for y0 in (region.y0..region.y1).step_by(BLOCK[1] as usize) {
         for x0 in (region.x0..region.x1).step_by(BLOCK[0] as usize) {
             let (x1, y1) = (x0 + BLOCK[0], y0 + BLOCK[1]);
@@ -75,7 +81,10 @@ impl Lit {
             let column = (pixel.x0 - region.x0) as usize;
             let place = (pixel.y0 - region.y0) as usize * region.width() as usize + column;
             let valid = picture.mean[place].iter().all(|value| value.is_finite());
-            (self.sites[place], self.shades[place]) = looks.mean(own, valid);
+            (self.sites[place], self.shades[place]) = looks.mean(own);
+            if !valid {
+                self.sites[place].spread = -1.0;
+            }
         }
     }
 }
@@ -83,71 +92,85 @@ impl Lit {
 /// How the scene's bodies look, by their place in the scene file.
 struct Looks {
     materials: Vec<Material>,
+    background: Vec3,
     /// Width of a pixel at distance 1.
     width: f32,
+    /// How distances between sites are measured.
+    job: DenoiseJob,
 }
 
 impl Looks {
-    fn new(scene: &Packed) -> Self {
+    fn new(scene: &Packed, job: DenoiseJob) -> Self {
         let spheres = scene.spheres.iter().map(|sphere| sphere.material);
-        let mut boxes: Vec<_> = scene.boxes.iter().map(|body| (body.id, body.material)).collect();
+        let mut boxes: Vec<_> = scene
+            .boxes
+            .iter()
+            .map(|body| (body.id, body.material))
+            .collect();
         boxes.sort_unstable();
         let numbers = spheres.chain(boxes.into_iter().map(|(_, material)| material));
         let camera = &scene.camera;
         Self {
-            materials: numbers.map(|number| scene.materials[number as usize]).collect(),
+            materials: numbers
+                .map(|number| scene.materials[number as usize])
+                .collect(),
+            background: scene.background.into(),
             width: Vec3::from(camera.down).length() * camera.pixel[1],
+            job,
         }
     }
 
-    /// The means of a pixel's guides, and its shade.
-    fn mean<'a>(&self, guides: impl Iterator<Item = &'a Guide>, valid: bool) -> (Site, [f32; 3]) {
-        let (mut normal, mut position, mut shade) = (Vec3::ZERO, Vec3::ZERO, Vec3::ZERO);
-        let (mut kind, mut distance) = (Vec4::ZERO, 0.0);
-        for guide in guides {
-            normal += Vec3::from(guide.normal);
-            position += Vec3::from(guide.position);
-            distance += guide.distance;
-            let (own_shade, own_kind) = self.look(guide);
-            shade += own_shade;
-            kind += own_kind;
+    /// The site of a pixel, and its shade: means over its guides.
+    fn mean<'a>(&self, guides: impl Iterator<Item = &'a Guide>) -> (Site, [f32; 3]) {
+        let seen: Vec<_> = guides.map(|guide| self.look(guide)).collect();
+        let share = 1.0 / seen.len() as f32;
+        let (mut mean, mut shade) = (Site::default(), Vec3::ZERO);
+        for (site, own_shade) in &seen {
+            shade += *own_shade * share;
+            mean.normal = (Vec3::from(mean.normal) + share * Vec3::from(site.normal)).to_array();
+            mean.position =
+                (Vec3::from(mean.position) + share * Vec3::from(site.position)).to_array();
+            mean.footprint += share * site.footprint;
+            mean.kind = (Vec4::from(mean.kind) + share * Vec4::from(site.kind)).to_array();
         }
-        let share = 1.0 / (FINENESS * FINENESS) as f32;
+        let apart = |(site, _): &(Site, Vec3)| site_distance(&self.job, site, &mean);
+        mean.spread = lesser(seen.iter().map(apart).sum::<f32>() * share, WIDEST);
+        (mean, shade.to_array())
+    }
+
+    /// The site of one ray, and what its light was multiplied by.
+    fn look(&self, guide: &Guide) -> (Site, Vec3) {
+        let material = guide
+            .id
+            .checked_sub(1)
+            .map(|body| &self.materials[body as usize]);
+        // What emits is divided by its emission: how much of a pixel a lamp fills is known better than its paths
+        // could say.
+        let light = match material {
+            None => self.background,
+            Some(material) => Vec3::from(material.emission) + Vec3::from(material.albedo),
+        };
+        let emits = material.is_none_or(|material| material.emission != [0.0; 3]);
+        let matt = material.is_some_and(|material| material.scatter == Scatter::Diffuse.index());
+        let shade = light * Vec3::from(guide.tint);
+        let black = shade
+            .to_array()
+            .iter()
+            .filter(|value| **value < BLACK)
+            .count();
+        let share = |yes: bool| if yes { 1.0 } else { 0.0 };
         let site = Site {
-            normal: (normal * share).to_array(),
-            footprint: distance * share * self.width,
-            position: (position * share).to_array(),
-            valid: if valid { 1.0 } else { 0.0 },
-            kind: (kind * share).to_array(),
+            normal: guide.normal,
+            footprint: guide.distance * self.width,
+            position: guide.position,
+            spread: 0.0,
+            kind: [
+                guide.mirrors as f32,
+                share(emits),
+                share(!emits && !matt),
+                black as f32 / 3.0,
+            ],
         };
-        (site, (shade * share).to_array())
+        (site, shade.max(Vec3::splat(BLACK)))
     }
-
-    /// What one ray's light was multiplied by, and what kind of surface it found.
-    fn look(&self, guide: &Guide) -> (Vec3, Vec4) {
-        let mirrors = Vec4::X * guide.mirrors as f32;
-        let tint = Vec3::from(guide.tint);
-        let bare = |shade: Vec3| (shade.max(Vec3::splat(BLACK)), dark(shade));
-        let material = match guide.id.checked_sub(1) {
-            Some(body) => &self.materials[body as usize],
-            None => {
-                let (shade, dark) = bare(tint);
-                return (shade, mirrors + Vec4::Y + dark);
-            }
-        };
-        // What emits shows its own light beside what it reflects.
-        if material.emission != [0.0; 3] {
-            let (shade, dark) = bare(tint);
-            return (shade, mirrors + Vec4::Y + dark);
-        }
-        let (shade, dark) = bare(tint * Vec3::from(material.albedo));
-        let satin = material.scatter != Scatter::Diffuse.index();
-        (shade, mirrors + dark + if satin { Vec4::Z } else { Vec4::ZERO })
-    }
-}
-
-/// The share of channels in which a surface is black.
-fn dark(shade: Vec3) -> Vec4 {
-    let black = shade.to_array().iter().filter(|value| **value < BLACK).count();
-    Vec4::W * (black as f32 / 3.0)
 }

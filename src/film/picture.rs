@@ -35,9 +35,7 @@ impl Picture {
         let noise = noise.into_iter().filter(|_| self.record.denoised.is_none());
         let lengths = noise.chain([self.mean.len()]);
         let pixels = self.pixels();
-        let wrong = lengths
-            .chain(features)
-            .find(|length| *length != pixels);
+        let wrong = lengths.chain(features).find(|length| *length != pixels);
         wrong.map(|length| format!("a plane has {length} pixels, the picture has {pixels}"))
     }
 

@@ -186,8 +186,9 @@ pub struct Site {
     pub footprint: f32,
     /// Relative to the eye.
     pub position: Vec3,
-    /// 0 where the light is not a number: then it takes part in nothing.
-    pub valid: f32,
+    /// How far the surfaces within the pixel are from their mean: an exponent, as `site_distance` gives it. Below 0
+    /// where the light is not a number: then it takes part in nothing.
+    pub spread: f32,
     /// Mirrors on the way, and the shares of what emits, scatters around the mirror direction and is black.
     pub kind: [f32; 4],
 }

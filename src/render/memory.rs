@@ -31,9 +31,8 @@ const THREAD: u64 = 80 << 20;
 pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
-    let of_pixel = PIXEL
-        + if task.features { FEATURES } else { 0 }
-        + if task.denoised { DENOISED } else { 0 };
+    let of_pixel =
+        PIXEL + if task.features { FEATURES } else { 0 } + if task.denoised { DENOISED } else { 0 };
     let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
     FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
 }
