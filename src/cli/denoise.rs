@@ -1,8 +1,15 @@
 //! `--denoise`: a second picture beside each output.
 
+use super::progress::bar;
+use super::run::{Session, first_failure, remark};
+use super::{Output, note};
+use crate::denoise;
+use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::{Denoising, Format};
+use crate::film::{Denoising, Format, Picture, Record, Seconds, Stop, Target, name_outputs};
+use crate::render::{Rendering, Spares};
 use clap::Args;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// A picture for looking at, beside the one for measuring.
@@ -67,6 +74,84 @@ fn denoised_name(path: &Path) -> Option<PathBuf> {
     name.push(".denoised.");
     name.push(path.extension()?);
     Some(path.with_file_name(name))
+}
+
+impl Session<'_> {
+    /// Writes the pictures without noise, where they are wanted, and names them in the record that is printed; whether
+    /// there is nothing left to do. The picture that they are made of has been written: a signal leaves that.
+    pub(super) fn denoise(
+        &self,
+        device: &mut Box<dyn Device>,
+        rendering: &Rendering,
+        targets: Vec<Target>,
+        record: Option<&mut Record>,
+    ) -> Result<bool> {
+        let (Some(by), Some(record)) = (self.run.denoise, record) else {
+            return Ok(true);
+        };
+        let stopped = rendering.stopped == Some(Stop::Signal);
+        let picture = self.picture(rendering).filter(|_| !stopped);
+        let smoothed = match &picture {
+            Some(picture) => self.smooth(device, picture, by)?,
+            None => None,
+        };
+        let Some(mut smoothed) = smoothed else {
+            remark("stopped: no denoised picture is written", self.output);
+            return Ok(false);
+        };
+        name_outputs(&mut smoothed.record, &targets);
+        record.outputs.extend(smoothed.record.outputs.clone());
+        tell_of_denoising(&smoothed.record, self.output);
+        if self.run.no_times {
+            smoothed.record.seconds = Seconds::default();
+            if let Some(denoised) = &mut smoothed.record.denoised {
+                denoised.seconds = 0.0;
+            }
+        }
+        let written = targets.into_iter().map(|target| target.write(&smoothed));
+        first_failure(written).map(|()| true)
+    }
+
+    /// The picture without noise; none where a signal came first.
+    fn smooth(
+        &self,
+        device: &mut Box<dyn Device>,
+        picture: &Picture,
+        by: Denoising,
+    ) -> Result<Option<Picture>> {
+        let bar = bar(self.output, "denoising {wide_bar} {percent}% {elapsed}");
+        bar.set_length(1000);
+        let mut watch = |share: f64| {
+            bar.set_position((share * 1000.0) as u64);
+            match self.run.signals.stopped() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let spares = Spares {
+            anew: &mut || self.run.device.open().map(|chosen| chosen.device),
+            any: self.run.device.any(),
+            tell: &mut |text| bar.suspend(|| remark(text, self.output)),
+        };
+        let smoothed = denoise::denoise(device, self.task, picture, by, spares, &mut watch);
+        bar.finish_and_clear();
+        smoothed
+    }
+}
+
+/// One line on the pictures without noise.
+fn tell_of_denoising(record: &Record, output: Output) {
+    let Some(denoised) = record.denoised.filter(|_| !output.quiet) else {
+        return;
+    };
+    let sum = |mean: [f64; 3]| mean.iter().sum::<f64>();
+    let before = sum(denoised.mean_before);
+    let change = 100.0 * (sum(record.mean) - before) / before.max(f64::MIN_POSITIVE);
+    note(&format!(
+        "{}: denoised in {:.2} s; the mean changed by {change:+.2} %",
+        record.outputs.join(", "),
+        denoised.seconds
+    ));
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use super::options::DeviceOptions;
 use super::progress::bar;
 use super::signal::Watch;
 use super::{Output, note, print};
-use crate::denoise;
 use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::{Aov, Denoising, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
@@ -82,17 +81,17 @@ impl Run<'_> {
         let (mut record, written) = session.write(&rendering, targets);
         let smoothed = match traced.is_ok() && written.is_ok() {
             true => session.denoise(&mut device, &rendering, denoised, record.as_mut()),
-            false => Ok(()),
+            false => Ok(false),
         };
         let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
-        let done = enough && traced.is_ok() && written.is_ok() && smoothed.is_ok();
+        let done = enough && traced.is_ok() && written.is_ok() && matches!(smoothed, Ok(true));
         let kept = session.keep(keeper, &rendering, done);
         if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
             warn_non_finite(&rendering.film);
             note(&summary(record));
             session.tell_of_error(&rendering);
         }
-        first_failure([traced, written, smoothed, kept])?;
+        first_failure([traced, written, smoothed.map(drop), kept])?;
         let Some(record) = record else {
             return Ok(());
         };
@@ -124,13 +123,13 @@ impl Run<'_> {
 }
 
 /// A render under way.
-struct Session<'a> {
-    run: &'a Run<'a>,
-    task: &'a Task<'a>,
+pub(super) struct Session<'a> {
+    pub(super) run: &'a Run<'a>,
+    pub(super) task: &'a Task<'a>,
     started: Instant,
     /// Until the device was open.
     opening: Duration,
-    output: Output,
+    pub(super) output: Output,
 }
 
 impl Session<'_> {
@@ -189,7 +188,7 @@ impl Session<'_> {
     }
 
     /// The picture as it stands; none while there are pixels without a sample.
-    fn picture(&self, rendering: &Rendering) -> Option<Picture> {
+    pub(super) fn picture(&self, rendering: &Rendering) -> Option<Picture> {
         let device = rendering.devices.first()?;
         if rendering.film.counts.contains(&0) {
             return None;
@@ -243,66 +242,6 @@ impl Session<'_> {
         (Some(record), first_failure(written))
     }
 
-    /// Writes the pictures without noise, where they are wanted, and names them in the record that is printed. The
-    /// picture that they are made of has been written: a signal leaves that.
-    fn denoise(
-        &self,
-        device: &mut Box<dyn Device>,
-        rendering: &Rendering,
-        targets: Vec<Target>,
-        record: Option<&mut Record>,
-    ) -> Result<()> {
-        let (Some(by), Some(record)) = (self.run.denoise, record) else {
-            return Ok(());
-        };
-        let stopped = rendering.stopped == Some(Stop::Signal);
-        let picture = self.picture(rendering).filter(|_| !stopped);
-        let smoothed = match &picture {
-            Some(picture) => self.smooth(device, picture, by)?,
-            None => None,
-        };
-        let Some(mut smoothed) = smoothed else {
-            remark("stopped: no denoised picture is written", self.output);
-            return Ok(());
-        };
-        name_outputs(&mut smoothed.record, &targets);
-        record.outputs.extend(smoothed.record.outputs.clone());
-        tell_of_denoising(&smoothed.record, self.output);
-        if self.run.no_times {
-            smoothed.record.seconds = Seconds::default();
-            if let Some(denoised) = &mut smoothed.record.denoised {
-                denoised.seconds = 0.0;
-            }
-        }
-        first_failure(targets.into_iter().map(|target| target.write(&smoothed)))
-    }
-
-    /// The picture without noise; none where a signal came first.
-    fn smooth(
-        &self,
-        device: &mut Box<dyn Device>,
-        picture: &Picture,
-        by: Denoising,
-    ) -> Result<Option<Picture>> {
-        let bar = bar(self.output, "denoising {wide_bar} {percent}% {elapsed}");
-        bar.set_length(1000);
-        let mut watch = |share: f64| {
-            bar.set_position((share * 1000.0) as u64);
-            match self.run.signals.stopped() {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
-        };
-        let spares = Spares {
-            anew: &mut || self.run.device.open().map(|chosen| chosen.device),
-            any: self.run.device.any(),
-            tell: &mut |text| bar.suspend(|| remark(text, self.output)),
-        };
-        let smoothed = denoise::denoise(device, self.task, picture, by, spares, &mut watch);
-        bar.finish_and_clear();
-        smoothed
-    }
-
     /// Writes the picture so far, and lets the render go on.
     fn write_meanwhile(&self, rendering: &Rendering) {
         let written = Target::prepare_all(&self.run.outputs).and_then(|mut targets| {
@@ -320,7 +259,7 @@ impl Session<'_> {
 }
 
 /// The first failure, which says how the program ends; those after it are told.
-fn first_failure(outcomes: impl IntoIterator<Item = Result<()>>) -> Result<()> {
+pub(super) fn first_failure(outcomes: impl IntoIterator<Item = Result<()>>) -> Result<()> {
     // Collected, so that each of them is tried.
     let failures: Vec<_> = outcomes.into_iter().filter_map(Result::err).collect();
     let mut failures = failures.into_iter();
@@ -333,7 +272,7 @@ fn first_failure(outcomes: impl IntoIterator<Item = Result<()>>) -> Result<()> {
     Err(first)
 }
 
-fn remark(text: &str, output: Output) {
+pub(super) fn remark(text: &str, output: Output) {
     if !output.quiet {
         note(&format!("lampray: {text}"));
     }
@@ -350,21 +289,6 @@ fn progress_bar(output: Output, scene: &Scene) -> ProgressBar {
     );
     bar.set_prefix(name.to_string_lossy().into_owned());
     bar
-}
-
-/// One line on the pictures without noise.
-fn tell_of_denoising(record: &Record, output: Output) {
-    let Some(denoised) = record.denoised.filter(|_| !output.quiet) else {
-        return;
-    };
-    let sum = |mean: [f64; 3]| mean.iter().sum::<f64>();
-    let before = sum(denoised.mean_before);
-    let change = 100.0 * (sum(record.mean) - before) / before.max(f64::MIN_POSITIVE);
-    note(&format!(
-        "{}: denoised in {:.2} s; the mean changed by {change:+.2} %",
-        record.outputs.join(", "),
-        denoised.seconds
-    ));
 }
 
 fn warn_non_finite(film: &Film) {

@@ -57,6 +57,14 @@ fn guide_at(scene: &Packed, bodies: &impl Traversal, job: &GuideJob, film: Vec2)
     guide
 }
 
+/// Where in its pixel a ray starts: no two in one column or one row, so that edges along them are known as well
+/// as others (Kensler 2013, section 2, without the jitter).
+fn place_of(fineness: u32, cell: [u32; 2]) -> Vec2 {
+    let at = Vec2::new(cell[0] as f32, cell[1] as f32);
+    let fineness = fineness as f32;
+    (at + (Vec2::new(at.y, at.x) + 0.5) / fineness) / fineness
+}
+
 /// The guide of one lane of a job.
 pub fn guide(
     scene: &Packed,
@@ -69,7 +77,7 @@ pub fn guide(
         job.corner[0] + column / fineness,
         job.corner[1] + row / fineness,
     ];
-    let place = Vec2::new((column % fineness) as f32, (row % fineness) as f32) + 0.5;
-    let film = sample_film(scene.strategy.filter, pixel, place / fineness as f32);
+    let place = place_of(fineness, [column % fineness, row % fineness]);
+    let film = sample_film(scene.strategy.filter, pixel, place);
     guide_at(scene, bodies, job, film)
 }

@@ -1,7 +1,7 @@
 //! The passes over a picture, block by block: the device sees a window at a time, whatever the picture's size.
 
-use super::Watch;
 use super::hands::Hands;
+use super::{GUIDES, Watch};
 use crate::error::Result;
 use crate::film::Denoising;
 use crate::pack::{DenoiseJob, Estimate, Rect, Site};
@@ -42,7 +42,7 @@ pub(super) fn run(
         let mut next = vec![Estimate::default(); estimates.len()];
         for rect in blocks(size) {
             let share = (done as f64 + f64::from(rect.y0) / f64::from(size[1])) / all.len() as f64;
-            if watch(0.3 + 0.7 * share).is_break() {
+            if watch(GUIDES + (1.0 - GUIDES) * share).is_break() {
                 return Ok(None);
             }
             let (job, around) = job(size, by, *pass, rect);

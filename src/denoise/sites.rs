@@ -1,8 +1,8 @@
 //! What is known of each pixel without noise: means of the guides of the rays through it.
 
-use super::Watch;
 use super::hands::Hands;
 use super::passes::widths;
+use super::{GUIDES, Watch};
 use crate::cpu::denoise::site_distance;
 use crate::cpu::maths::lesser;
 use crate::error::Result;
@@ -12,16 +12,16 @@ use crate::pack::{DenoiseJob, Guide, Material, Packed, Rect, Site};
 use crate::render::Task;
 use glam::{Vec3, Vec4};
 
-/// Rays through a pixel, each way: an edge that crosses it is known to a ninth of it.
-const FINENESS: u32 = 3;
-/// Pixels of a block, each way: some hundred thousand rays, a fraction of a dispatch's half second.
+/// Rays through a pixel, each way: an edge that crosses it is known to a sixteenth of it.
+const FINENESS: u32 = 4;
+/// Pixels of a block, each way: some two hundred thousand rays, a fraction of a dispatch's half second.
 const BLOCK: [u32; 2] = [256, 48];
 /// Below this a shade is black: what is divided by it would be anything.
 const BLACK: f32 = 1e-3;
 /// The largest spread: beyond, a pixel that the background shows through would be like everything.
 const WIDEST: f32 = 30.0;
-/// Guides are most of the rays, passes over so few pixels are short.
-const SHARE: f64 = 0.3;
+/// Radiance beyond it, or that is no number, takes part in nothing: sums of it would not be finite.
+const BRIGHTEST: f32 = 1e30;
 
 /// Sites and shades of a picture, row by row.
 pub(super) struct Lit {
@@ -53,7 +53,7 @@ pub(super) fn sites(
             lit.fill(&looks, region, rect, &guides, picture);
         }
         let share = f64::from(y0 - region.y0) / f64::from(region.height());
-        if watch(SHARE * share).is_break() {
+        if watch(GUIDES * share).is_break() {
             return Ok(None);
         }
     }
@@ -80,7 +80,9 @@ impl Lit {
             let own = rows.flat_map(|start| &guides[start..start + fineness]);
             let column = (pixel.x0 - region.x0) as usize;
             let place = (pixel.y0 - region.y0) as usize * region.width() as usize + column;
-            let valid = picture.mean[place].iter().all(|value| value.is_finite());
+            let valid = picture.mean[place]
+                .iter()
+                .all(|value| value.abs() <= BRIGHTEST);
             (self.sites[place], self.shades[place]) = looks.mean(own);
             if !valid {
                 self.sites[place].spread = -1.0;

@@ -206,5 +206,12 @@ mod tests {
             ..task
         };
         assert!(memory_estimate(&layers) > (39 << 30));
+        let denoised = Task {
+            denoised: true,
+            features: false,
+            ..layers
+        };
+        let gib = memory_estimate(&denoised) as f64 / (1u64 << 30) as f64;
+        assert!((62.0..65.0).contains(&gib), "{gib}");
     }
 }

@@ -163,7 +163,7 @@ fn a_denoised_picture_is_the_same_on_both_devices() {
         sum += f64::from(*wanted);
     }
     let count = wanted.mean.len() as f64 * 3.0;
-    // A guide on the other side of an edge moves the shade of its pixel by a ninth.
+    // A guide on the other side of an edge moves the shade of its pixel by a sixteenth.
     let apart = (squares / count).sqrt() / (sum / count);
     assert!(apart < 1e-3, "{apart}");
 }
