@@ -2,7 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::pack::{
-    CanaryJob, CanaryScene, Draw, Feature, Packed, PointsJob, Rect, Strategy, Tally, Traversal,
+    CanaryJob, CanaryScene, DenoiseJob, Draw, Estimate, Feature, Guide, Packed, PointsJob, Rect,
+    Site, Strategy, Tally, Traversal,
 };
 use crate::shader::Library;
 use serde::{Deserialize, Serialize};
@@ -200,6 +201,24 @@ pub trait Device: Send {
     /// # Errors
     /// As [`Device::start`].
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>>;
+
+    /// What rays through a lattice of `fineness` by `fineness` places in each pixel of `rect` meet first that is no
+    /// mirror; lattice row by lattice row.
+    ///
+    /// # Errors
+    /// As [`Device::start`].
+    fn guides(&mut self, rect: Rect, fineness: u32) -> Result<Vec<Guide>>;
+
+    /// One pass of the denoiser over the pixels of a job, row by row; `sites` and `estimates` are of its window.
+    ///
+    /// # Errors
+    /// As [`Device::start`].
+    fn denoise(
+        &mut self,
+        job: &DenoiseJob,
+        sites: &[Site],
+        estimates: &[Estimate],
+    ) -> Result<Vec<Estimate>>;
 
     /// Draws by the light or the scatter sampler.
     ///

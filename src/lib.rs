@@ -12,6 +12,8 @@
 //!            knobs ↗         Task ─Plan→ blocks ───────┴→ cpu (the twin) ───────┴→ Film → Picture → EXR, PNG + record
 //!                                 ↑────────────── Checkpoint ←──────────────────────┘
 //!
+//! Picture, guides ─denoise→ Picture for looking at, marked as such
+//!
 //! any EXR, PNG ─RasterFile→ Pair ─┬→ metrics, limits, maps ─┬→ Comparison → text, JSON, exit code
 //!                                 └→ verdict ───────────────┘
 //!
@@ -23,7 +25,7 @@
 //!
 //! | room | what lives there |
 //! |---|---|
-//! | `shaders/` | kernels (`trace`, `features`, `points`, `probe`, `canary`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
+//! | `shaders/` | kernels (`trace`, `features`, `guides`, `denoise`, `points`, `probe`, `canary`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
 //! | [`knobs`] | the one table of knobs, the presets, the typed settings |
 //! | [`scene`] | the scene's types, the TOML parser with places, the checks |
 //! | [`bvh`] | bodies' bounds as a tree that is walked without a stack |
@@ -32,6 +34,7 @@
 //! | [`device`] | what a device is; [`gpu`] and [`cpu`] are the two that there are |
 //! | [`doctor`] | known-answer checks of a device, before it is trusted with a picture |
 //! | [`render`] | choice of device, the plan of blocks, the thread that feeds a device ahead, stop rules, what happens when a device is lost |
+//! | [`denoise`] | a picture without noise beside the one that was measured, for looking at |
 //! | [`film`] | sums in f64, checkpoints, EXR, PNG, run record, merge; any program's images for comparing |
 //! | [`compare`] | two picture files: metrics, limits, maps, the verdict; never renders |
 //! | [`sweep`] | a grid of renders with their references: axes, plan, ledger, table, and the way back from a folder |
@@ -99,6 +102,8 @@ pub mod cli;
 pub mod compare;
 #[forbid(unsafe_code)]
 pub mod cpu;
+#[forbid(unsafe_code)]
+pub mod denoise;
 #[forbid(unsafe_code)]
 pub mod device;
 #[forbid(unsafe_code)]

@@ -169,6 +169,52 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
             }),
         ),
         (
+            "GuideJob",
+            layout!(GuideJob {
+                camera,
+                corner,
+                size,
+                fineness,
+                mirrors,
+                iterations
+            }),
+        ),
+        (
+            "Guide",
+            layout!(Guide {
+                normal,
+                distance,
+                position,
+                id,
+                tint,
+                mirrors
+            }),
+        ),
+        (
+            "DenoiseJob",
+            layout!(DenoiseJob {
+                corner,
+                size,
+                window,
+                step,
+                only_variance,
+                luminance,
+                normal,
+                depth
+            }),
+        ),
+        (
+            "Site",
+            layout!(Site {
+                normal,
+                footprint,
+                position,
+                spread,
+                kind
+            }),
+        ),
+        ("Estimate", layout!(Estimate { light, variance })),
+        (
             "PointsJob",
             layout!(PointsJob {
                 lamp,

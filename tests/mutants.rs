@@ -181,7 +181,16 @@ fn every_patched_shader_compiles() {
             .iter()
             .any(|file| file.path == "shaders/bvh.wgsl");
         let arrays = if by_tree { with_tree } else { arrays };
-        let mut joined = shader::source(Kernel::Trace, arrays).unwrap();
+        let denoises = patch
+            .files
+            .iter()
+            .any(|file| file.path == "shaders/denoise.wgsl");
+        let kernel = if denoises {
+            Kernel::Denoise
+        } else {
+            Kernel::Trace
+        };
+        let mut joined = shader::source(kernel, arrays).unwrap();
         for file in &patch.files {
             if file.path.starts_with("shaders/") {
                 joined.text = applied(&joined.text, file).unwrap();

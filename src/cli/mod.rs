@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod denoise;
 mod devices;
 mod diff;
 mod doctor;

@@ -1,3 +1,4 @@
+use super::denoise::DenoiseOptions;
 use super::keep::KeepOptions;
 use super::options::{DeviceOptions, KnobOptions, crop, sample_range};
 use super::run::{Run, StopRules};
@@ -12,13 +13,15 @@ use std::path::{Path, PathBuf};
 /// Render a picture of a scene
 ///
 /// Writes STEM.png and STEM.exr into the current folder unless -o says otherwise. The EXR holds
-/// mean radiance, its variance and the sample count; both carry the run record.
+/// mean radiance, its variance and the sample count; both carry the run record. --denoise writes STEM.denoised.png
+/// and STEM.denoised.exr too.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lampray render scenes/cornell.toml
   lampray render scenes/cornell.toml --preset paper --spp 50 --width 128 --height 128 -o paper.png
   lampray render scenes/cornell.toml --set light.sampler=gaussian --set 'materials.red.albedo=[0.6,0.1,0.1]'
-  lampray render scenes/cornell.toml --sample-range 64..128 -o second-half.exr")]
+  lampray render scenes/cornell.toml --sample-range 64..128 -o second-half.exr
+  lampray render scenes/cornell.toml --denoise -o room.png                  # and room.denoised.png")]
 pub(crate) struct Command {
     /// Scene file (TOML)
     scene: PathBuf,
@@ -38,6 +41,8 @@ pub(crate) struct Command {
     /// Add layers of first hits to the EXR
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     aov: Vec<Aov>,
+    #[command(flatten)]
+    denoise: DenoiseOptions,
     #[command(flatten)]
     rules: StopRules,
     #[command(flatten)]
@@ -70,6 +75,7 @@ impl Command {
             region,
             samples,
             aovs: self.aov,
+            denoise: self.denoise.wanted(),
             device: &self.device,
             rules: self.rules,
             keep: self.keep,

@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 /// Render again from the record inside a picture
 ///
 /// Takes the scene, every knob, the crop and the samples from the PNG or EXR. On the same device,
-/// driver and version the pixels are the same, byte for byte.
+/// driver and version the pixels are the same, byte for byte. Of a denoised picture both are made again: the picture
+/// that it was made of, and NAME.denoised.png or NAME.denoised.exr beside it.
 #[derive(Args)]
 #[command(after_help = "Example:\n  lampray rerun cornell.png -o again.exr")]
 pub(crate) struct Command {
@@ -62,6 +63,7 @@ impl Command {
             region,
             samples: first..end,
             aovs,
+            denoise: record.denoised.map(|denoised| denoised.by),
             device: &device,
             rules: StopRules::default(),
             keep: KeepOptions::default(),

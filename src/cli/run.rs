@@ -1,5 +1,6 @@
 //! What `render` and `rerun` share: from a scene to files and a record.
 
+use super::denoise::beside;
 use super::keep::{KeepOptions, Keeper};
 use super::options::DeviceOptions;
 use super::progress::bar;
@@ -7,7 +8,7 @@ use super::signal::Watch;
 use super::{Output, note, print};
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::{Aov, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
+use crate::film::{Aov, Denoising, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
 use crate::pack::Rect;
 use crate::render::{self, Rendering, Spares, Task};
 use crate::scene::Scene;
@@ -24,6 +25,8 @@ pub(crate) struct Run<'a> {
     pub region: Rect,
     pub samples: Range<u64>,
     pub aovs: Vec<Aov>,
+    /// How to make the pictures beside the outputs, where they are wanted.
+    pub denoise: Option<Denoising>,
     pub device: &'a DeviceOptions,
     pub rules: StopRules,
     pub keep: KeepOptions,
@@ -53,14 +56,16 @@ impl Run<'_> {
             region: self.region,
             samples: self.samples.clone(),
             features: !self.aovs.is_empty(),
+            denoised: self.denoise.is_some(),
             target_error: self.rules.target_error,
             ..Task::new(self.scene)
         };
         render::refuse_too_large(&task)?;
-        let targets = Target::prepare_all(&self.outputs)?;
+        let (targets, denoised) = self.targets()?;
         let mut device = self.open(output)?;
         let wanted = render::record(&task, device.info(), &Rendering::new(&task));
-        let outputs = targets.iter().map(Target::identity).collect();
+        let outputs = targets.iter().chain(&denoised);
+        let outputs = outputs.map(Target::identity).collect();
         let (mut keeper, mut rendering) = match self.keep.keeper(&task, &wanted, outputs)? {
             Some((keeper, rendering)) => (Some(keeper), rendering),
             None => (None, Rendering::new(&task)),
@@ -73,16 +78,20 @@ impl Run<'_> {
             output,
         };
         let traced = session.trace(&mut device, &mut rendering, &mut keeper);
-        let (record, written) = session.write(&rendering, targets);
+        let (mut record, written) = session.write(&rendering, targets);
+        let smoothed = match traced.is_ok() && written.is_ok() {
+            true => session.denoise(&mut device, &rendering, denoised, record.as_mut()),
+            false => Ok(false),
+        };
         let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
-        let done = enough && traced.is_ok() && written.is_ok();
+        let done = enough && traced.is_ok() && written.is_ok() && matches!(smoothed, Ok(true));
         let kept = session.keep(keeper, &rendering, done);
         if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
             warn_non_finite(&rendering.film);
             note(&summary(record));
             session.tell_of_error(&rendering);
         }
-        first_failure([traced, written, kept])?;
+        first_failure([traced, written, smoothed.map(drop), kept])?;
         let Some(record) = record else {
             return Ok(());
         };
@@ -91,6 +100,17 @@ impl Run<'_> {
         } else {
             Ok(())
         }
+    }
+
+    /// The outputs, and the denoised pictures beside them.
+    fn targets(&self) -> Result<(Vec<Target>, Vec<Target>)> {
+        let mut all = self.outputs.clone();
+        if self.denoise.is_some() {
+            all.extend(beside(&self.outputs)?);
+        }
+        let mut targets = Target::prepare_all(&all)?;
+        let denoised = targets.split_off(self.outputs.len());
+        Ok((targets, denoised))
     }
 
     fn open(&self, output: Output) -> Result<Box<dyn Device>> {
@@ -103,13 +123,13 @@ impl Run<'_> {
 }
 
 /// A render under way.
-struct Session<'a> {
-    run: &'a Run<'a>,
-    task: &'a Task<'a>,
+pub(super) struct Session<'a> {
+    pub(super) run: &'a Run<'a>,
+    pub(super) task: &'a Task<'a>,
     started: Instant,
     /// Until the device was open.
     opening: Duration,
-    output: Output,
+    pub(super) output: Output,
 }
 
 impl Session<'_> {
@@ -168,7 +188,7 @@ impl Session<'_> {
     }
 
     /// The picture as it stands; none while there are pixels without a sample.
-    fn picture(&self, rendering: &Rendering) -> Option<Picture> {
+    pub(super) fn picture(&self, rendering: &Rendering) -> Option<Picture> {
         let device = rendering.devices.first()?;
         if rendering.film.counts.contains(&0) {
             return None;
@@ -239,7 +259,7 @@ impl Session<'_> {
 }
 
 /// The first failure, which says how the program ends; those after it are told.
-fn first_failure(outcomes: impl IntoIterator<Item = Result<()>>) -> Result<()> {
+pub(super) fn first_failure(outcomes: impl IntoIterator<Item = Result<()>>) -> Result<()> {
     // Collected, so that each of them is tried.
     let failures: Vec<_> = outcomes.into_iter().filter_map(Result::err).collect();
     let mut failures = failures.into_iter();
@@ -252,7 +272,7 @@ fn first_failure(outcomes: impl IntoIterator<Item = Result<()>>) -> Result<()> {
     Err(first)
 }
 
-fn remark(text: &str, output: Output) {
+pub(super) fn remark(text: &str, output: Output) {
     if !output.quiet {
         note(&format!("lampray: {text}"));
     }

@@ -217,6 +217,12 @@ pub fn sides(pair: &Pair, relation: Relation) -> std::result::Result<Sides<'_>, 
 const MOST_SAMPLES: f32 = 9.007_199e15;
 
 fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, NoVerdict> {
+    let record = image.record.as_ref();
+    if record.is_some_and(|record| record.denoised.is_some()) {
+        return Err(NoVerdict::NoNoise(format!(
+            "{name} was denoised: it is biased, and its error is no longer that of a mean of samples"
+        )));
+    }
     let (Pixels::Linear(mean), Some(Noise { variance, samples })) = (&image.pixels, &image.noise)
     else {
         return Err(NoVerdict::NoNoise(format!(

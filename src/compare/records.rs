@@ -91,7 +91,12 @@ fn other_differences(reference: &Record, test: &Record) -> Vec<String> {
             .crop
             .map_or("none".into(), |crop| format!("{crop:?}"))
     };
+    let denoised = |record: &Record| match record.denoised {
+        None => "no".to_string(),
+        Some(denoised) => serde_json::to_string(&denoised.by).unwrap_or_default(),
+    };
     let fields = [
+        ("denoised", denoised(a), denoised(b)),
         ("shaders", a.shader_hash.clone(), b.shader_hash.clone()),
         ("lampray", a.version.clone(), b.version.clone()),
         ("device", device(a), device(b)),

@@ -6,8 +6,10 @@ pub mod r#box;
 pub mod bvh;
 pub mod camera;
 pub mod canary;
+pub mod denoise;
 pub mod four;
 pub mod glass;
+pub mod guides;
 pub mod interruption;
 pub mod light;
 pub mod loops;
@@ -24,7 +26,8 @@ pub mod trace;
 use crate::device::{Block, Device, DeviceInfo, DeviceKind, Limits, Traced, runs};
 use crate::error::{Error, Result};
 use crate::pack::{
-    CanaryJob, CanaryScene, Draw, Feature, Hierarchy, Packed, PointsJob, Rect, Strategy, Tally,
+    CanaryJob, CanaryScene, DenoiseJob, Draw, Estimate, Feature, Guide, GuideJob, Hierarchy,
+    Packed, PointsJob, Rect, Site, Strategy, Tally,
 };
 use bvh::ByTree;
 use glam::{Vec2, Vec3};
@@ -160,6 +163,27 @@ impl Device for Cpu {
             Bodies::Tree(hierarchy) => feature_at(scene, &ByTree { scene, hierarchy }, pixel),
         };
         Ok(pixels(rect).map(feature).collect())
+    }
+
+    fn guides(&mut self, rect: Rect, fineness: u32) -> Result<Vec<Guide>> {
+        let (scene, bodies) = self.scene()?;
+        let job = GuideJob::new(scene, rect, fineness);
+        let guide = |lane| match bodies {
+            Bodies::Four(four) => guides::guide(scene, four, &job, lane),
+            Bodies::Tree(hierarchy) => {
+                guides::guide(scene, &ByTree { scene, hierarchy }, &job, lane)
+            }
+        };
+        Ok(pixels(job.lanes()).map(guide).collect())
+    }
+
+    fn denoise(
+        &mut self,
+        job: &DenoiseJob,
+        sites: &[Site],
+        estimates: &[Estimate],
+    ) -> Result<Vec<Estimate>> {
+        Ok(denoise::pass(job, sites, estimates))
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {

@@ -14,6 +14,7 @@
 mod bytes;
 mod checkpoint;
 mod curve;
+mod denoised;
 mod exr;
 mod input;
 mod limits;
@@ -34,6 +35,7 @@ mod text;
 
 pub use checkpoint::{Checkpoint, previous};
 pub use curve::Curve;
+pub use denoised::{Denoised, Denoising};
 pub use merge::merge;
 pub use moments::{Film, NonFinite};
 pub use output::{Format, Target, name_outputs};

@@ -19,10 +19,16 @@ pub(super) struct Part {
 impl Part {
     pub(super) fn open(path: &Path) -> Result<Part> {
         let (record, _) = read_record(path)?;
-        Ok(Part {
+        let part = Part {
             path: path.into(),
             record,
-        })
+        };
+        match part.record.denoised {
+            None => Ok(part),
+            Some(_) => part.fail(
+                "it was denoised, which leaves no sums of samples: merge the pictures beside such ones".into(),
+            ),
+        }
     }
 
     fn fail<T>(&self, reason: String) -> Result<T> {

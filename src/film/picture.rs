@@ -11,7 +11,8 @@ pub struct Picture {
     pub height: u32,
     /// Mean radiance, linear.
     pub mean: Vec<[f32; 3]>,
-    /// Sample variance of one path's radiance.
+    /// Sample variance of one path's radiance; this and `samples` are empty where the record says that the picture was
+    /// denoised.
     pub variance: Vec<[f32; 3]>,
     /// Samples taken; whole numbers.
     pub samples: Vec<f32>,
@@ -30,12 +31,11 @@ impl Picture {
     /// Why the picture cannot be written, if it cannot: a plane of another length.
     pub(super) fn fault(&self) -> Option<String> {
         let features = self.features.iter().flat_map(Features::lengths);
-        let lengths = [self.mean.len(), self.variance.len(), self.samples.len()];
+        let noise = [self.variance.len(), self.samples.len()];
+        let noise = noise.into_iter().filter(|_| self.record.denoised.is_none());
+        let lengths = noise.chain([self.mean.len()]);
         let pixels = self.pixels();
-        let wrong = lengths
-            .into_iter()
-            .chain(features)
-            .find(|length| *length != pixels);
+        let wrong = lengths.chain(features).find(|length| *length != pixels);
         wrong.map(|length| format!("a plane has {length} pixels, the picture has {pixels}"))
     }
 
@@ -43,7 +43,7 @@ impl Picture {
     pub fn raster(&self) -> Raster {
         Raster {
             pixels: Pixels::Linear(self.mean.clone()),
-            noise: Some(Noise {
+            noise: self.record.denoised.is_none().then(|| Noise {
                 variance: self.variance.clone(),
                 samples: self.samples.clone(),
             }),

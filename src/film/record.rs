@@ -1,5 +1,6 @@
 //! The run record: everything needed to know what a picture is, and to render it again.
 
+use super::Denoised;
 use crate::device::DeviceInfo;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -50,6 +51,9 @@ pub struct Record {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target_error: Option<f64>,
     pub biased: bool,
+    /// How it was denoised; absent for a mean of samples. `standard_error` is then that of the mean before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub denoised: Option<Denoised>,
     pub seconds: Seconds,
     pub paths: u64,
     pub rays: u64,
@@ -97,9 +101,11 @@ impl Record {
             total,
             longest_block,
         } = self.seconds;
-        let short = [setup, render, total, longest_block]
-            .map(|value| LONGEST.saturating_sub(written(value)));
-        self.to_json() + &" ".repeat(short.iter().sum())
+        let denoising = self.denoised.map(|denoised| denoised.seconds);
+        let times = [setup, render, total, longest_block];
+        let short = times.into_iter().chain(denoising);
+        let short = short.map(|value| LONGEST.saturating_sub(written(value)));
+        self.to_json() + &" ".repeat(short.sum())
     }
 }
 

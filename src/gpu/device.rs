@@ -19,7 +19,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The id of a feature whose ray was left before its end.
-const UNFINISHED: u32 = u32::MAX;
+pub(super) const UNFINISHED: u32 = u32::MAX;
 
 /// The scene on the device, with what traces it.
 #[derive(Debug)]
@@ -359,6 +359,19 @@ impl Device for Gpu {
             true => Ok(features),
             false => Err(self.cut_short("a ray met too many bodies' bounds")),
         }
+    }
+
+    fn guides(&mut self, rect: Rect, fineness: u32) -> Result<Vec<Guide>> {
+        self.guides_of(rect, fineness)
+    }
+
+    fn denoise(
+        &mut self,
+        job: &DenoiseJob,
+        sites: &[Site],
+        estimates: &[Estimate],
+    ) -> Result<Vec<Estimate>> {
+        self.denoise_pass(job, sites, estimates)
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {

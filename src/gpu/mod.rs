@@ -9,6 +9,8 @@ mod cache;
 #[forbid(unsafe_code)]
 mod canary;
 #[forbid(unsafe_code)]
+mod denoise;
+#[forbid(unsafe_code)]
 mod device;
 // Handing a driver what it compiled before is unsafe in wgpu.
 mod disk_cache;

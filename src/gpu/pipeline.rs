@@ -18,9 +18,11 @@ pub enum Binding {
 /// The bindings of each kernel's group 1, in order.
 pub fn bindings(kernel: Kernel) -> &'static [Binding] {
     match kernel {
-        Kernel::Trace | Kernel::Features | Kernel::Points => &[Binding::Uniform, Binding::Write],
+        Kernel::Trace | Kernel::Features | Kernel::Guides | Kernel::Points => {
+            &[Binding::Uniform, Binding::Write]
+        }
         Kernel::Probe => &[Binding::Uniform, Binding::Read, Binding::Write],
-        Kernel::Canary => &[
+        Kernel::Canary | Kernel::Denoise => &[
             Binding::Uniform,
             Binding::Read,
             Binding::Read,
@@ -31,7 +33,7 @@ pub fn bindings(kernel: Kernel) -> &'static [Binding] {
 
 /// Whether a kernel traces the scene, and so binds it in group 0.
 pub fn binds_scene(kernel: Kernel) -> bool {
-    matches!(kernel, Kernel::Trace | Kernel::Features)
+    matches!(kernel, Kernel::Trace | Kernel::Features | Kernel::Guides)
 }
 
 /// A kernel ready to run.

@@ -122,6 +122,86 @@ pub struct FeatureJob {
     pub _pad0: [u32; 3],
 }
 
+/// `guides.wgsl`: one dispatch.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct GuideJob {
+    pub camera: Camera,
+    pub corner: [u32; 2],
+    /// In lanes: `fineness` for each pixel.
+    pub size: [u32; 2],
+    pub fineness: u32,
+    /// Most mirrors that a ray follows.
+    pub mirrors: u32,
+    pub iterations: u32,
+    pub _pad0: u32,
+}
+
+/// `guides.wgsl`: the first surface that is no mirror.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Guide {
+    /// Faces the arriving ray; zero where nothing is met.
+    pub normal: Vec3,
+    /// Of the whole way from the eye, scene units.
+    pub distance: f32,
+    /// Relative to the eye, scene units.
+    pub position: Vec3,
+    /// 0 where nothing is met, then the spheres from 1 on, then the boxes.
+    pub id: u32,
+    /// The share of its light that the mirrors on the way reflect.
+    pub tint: Vec3,
+    /// How many.
+    pub mirrors: u32,
+}
+
+/// `denoise.wgsl`: one dispatch.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct DenoiseJob {
+    /// The pixels that are made, within the window.
+    pub corner: [u32; 2],
+    pub size: [u32; 2],
+    /// Width and height of what is bound: those pixels, and the ones around that they look at.
+    pub window: [u32; 2],
+    /// Pixels between two taps.
+    pub step: u32,
+    /// 1: the variance alone is spread, by the guides alone.
+    pub only_variance: u32,
+    /// What squared differences are multiplied by: of luminance, in variances.
+    pub luminance: f32,
+    /// Of normals.
+    pub normal: f32,
+    /// Of the distance from the other's tangent plane, in widths of a pixel there.
+    pub depth: f32,
+    pub _pad0: u32,
+}
+
+/// `denoise.wgsl`: what is known of a pixel without noise, means over the pixel.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Site {
+    pub normal: Vec3,
+    /// How wide a pixel is at its distance, scene units; 0 where nothing is met.
+    pub footprint: f32,
+    /// Relative to the eye.
+    pub position: Vec3,
+    /// How far the surfaces within the pixel are from their mean: an exponent, as `site_distance` gives it. Below 0
+    /// where the light is not a number: then it takes part in nothing.
+    pub spread: f32,
+    /// Mirrors on the way, and the shares of what emits, scatters around the mirror direction and is black.
+    pub kind: [f32; 4],
+}
+
+/// `denoise.wgsl`: light before the surfaces' albedo.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Estimate {
+    pub light: Vec3,
+    /// Of its luminance.
+    pub variance: f32,
+}
+
 /// `points.wgsl`: one dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

@@ -1,5 +1,6 @@
 //! From a scene to flat buffers: what a device needs, with no device in it.
 
+mod guides;
 mod layout;
 mod rect;
 mod strategy;

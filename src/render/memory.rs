@@ -14,6 +14,9 @@ const FIXED: u64 = 192 << 20;
 const PIXEL: u64 = 56 + 28 + 9;
 /// Of a pixel with layers of first hits: as traced, and as planes.
 const FEATURES: u64 = 32 + 32;
+/// Of a pixel while its picture is denoised: the picture as it was, what is known of the pixel without noise, and its
+/// light as it is and as it will be; then the picture as it becomes and its PNG on the way to the disk.
+const DENOISED: u64 = 28 + 48 + 12 + 3 * 16 + 12 + 9;
 /// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.
 const BODY: u64 = 1024;
 /// Results of a block are in the device's memory and in the host's, of several blocks at a time.
@@ -28,7 +31,8 @@ const THREAD: u64 = 80 << 20;
 pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
-    let of_pixel = PIXEL + if task.features { FEATURES } else { 0 };
+    let of_pixel =
+        PIXEL + if task.features { FEATURES } else { 0 } + if task.denoised { DENOISED } else { 0 };
     let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
     FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
 }
@@ -202,5 +206,12 @@ mod tests {
             ..task
         };
         assert!(memory_estimate(&layers) > (39 << 30));
+        let denoised = Task {
+            denoised: true,
+            features: false,
+            ..layers
+        };
+        let gib = memory_estimate(&denoised) as f64 / (1u64 << 30) as f64;
+        assert!((62.0..65.0).contains(&gib), "{gib}");
     }
 }

@@ -41,6 +41,8 @@ pub struct Task<'a> {
     pub samples: Range<u64>,
     /// Whether first-hit features are wanted too.
     pub features: bool,
+    /// Whether its picture is denoised, which takes memory.
+    pub denoised: bool,
     /// How rays find bodies.
     pub traversal: Traversal,
     /// The error, relative to the mean, at which the render may stop before its last sample: see
@@ -56,6 +58,7 @@ impl<'a> Task<'a> {
             region: whole(scene),
             samples: 0..scene.settings.render.samples,
             features: false,
+            denoised: false,
             traversal: Traversal::of(scene),
             target_error: None,
         }

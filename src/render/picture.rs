@@ -52,6 +52,7 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         stopped: rendering.stopped,
         target_error: task.target_error,
         biased: settings.biased(),
+        denoised: None,
         seconds: Seconds {
             setup: rendering.setup.as_secs_f64(),
             render: rendering.tracing.as_secs_f64(),

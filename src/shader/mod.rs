@@ -23,6 +23,8 @@ choice! {
     Kernel, "KERNEL" {
         Trace = "trace",
         Features = "features",
+        Guides = "guides",
+        Denoise = "denoise",
         Points = "points",
         Probe = "probe",
         Canary = "canary",
@@ -104,8 +106,8 @@ pub fn source(kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
 /// [`Error::Internal`] where the files contradict each other.
 pub fn source_of(library: &Library, kernel: Kernel, arrays: SceneArrays) -> Result<Joined> {
     let scene = match kernel {
-        Kernel::Trace | Kernel::Features => arrays.declarations(),
-        Kernel::Points | Kernel::Probe | Kernel::Canary => String::new(),
+        Kernel::Trace | Kernel::Features | Kernel::Guides => arrays.declarations(),
+        Kernel::Points | Kernel::Probe | Kernel::Canary | Kernel::Denoise => String::new(),
     };
     let generated = constants() + &scene;
     join(library, kernel.name(), &generated, arrays.traversal())

@@ -3,7 +3,10 @@
 use lampray::cpu::Cpu;
 use lampray::device::{Block, Device, DeviceInfo, DeviceKind, Limits, Traced};
 use lampray::film::Film;
-use lampray::pack::{CanaryJob, CanaryScene, Draw, Feature, Packed, PointsJob, Rect, Strategy};
+use lampray::pack::{
+    CanaryJob, CanaryScene, DenoiseJob, Draw, Estimate, Feature, Guide, Packed, PointsJob, Rect,
+    Site, Strategy,
+};
 use lampray::render::{Plan, Rendering, Task, go_on_by, render};
 use lampray::scene::{Assignment, Scene};
 use lampray::{Error, Result};
@@ -117,6 +120,19 @@ impl Device for Fragile {
 
     fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
         self.twin.features(rect)
+    }
+
+    fn guides(&mut self, rect: Rect, fineness: u32) -> Result<Vec<Guide>> {
+        self.twin.guides(rect, fineness)
+    }
+
+    fn denoise(
+        &mut self,
+        job: &DenoiseJob,
+        sites: &[Site],
+        estimates: &[Estimate],
+    ) -> Result<Vec<Estimate>> {
+        self.twin.denoise(job, sites, estimates)
     }
 
     fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {

@@ -157,6 +157,7 @@ pub fn record(samples: std::ops::Range<u64>) -> Record {
         stopped: None,
         target_error: None,
         biased: false,
+        denoised: None,
         seconds: Seconds {
             setup: 0.25,
             render: 1.0 / 3.0,

@@ -45,9 +45,12 @@ impl Plane<'_> {
 
 /// Every channel of a picture, sorted by name as EXR demands.
 pub(super) fn planes(picture: &Picture) -> Vec<(&'static str, Plane<'_>)> {
-    let mut planes = vec![(SAMPLES, Plane::Single(&picture.samples))];
-    planes.extend(triple(MEAN, &picture.mean));
-    planes.extend(triple(VARIANCE, &picture.variance));
+    let mut planes: Vec<_> = triple(MEAN, &picture.mean).collect();
+    // What was denoised is no mean of samples: how they vary says nothing of its error.
+    if picture.record.denoised.is_none() {
+        planes.push((SAMPLES, Plane::Single(&picture.samples)));
+        planes.extend(triple(VARIANCE, &picture.variance));
+    }
     if let Some(features) = &picture.features {
         planes.extend(
             features

@@ -27,6 +27,10 @@ pub(in crate::film) fn read_picture(path: &Path, input: &mut Input) -> Result<Pi
             "the picture has another size than its record says",
         ));
     }
+    if record.denoised.is_some() {
+        let reason = "it was denoised, and holds no mean of samples with its variance: take the picture beside it";
+        return Err(bytes::data(path, reason));
+    }
     check(path, &header)?;
     let announced = part.pixels() as u64 * part.bytes_per_pixel() as u64;
     limits::refuse_ratio(path, input.size, announced, LARGEST_RATIO)?;

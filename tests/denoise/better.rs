@@ -1,0 +1,71 @@
+//! Nearer to the truth: errors against stored references of 4096 samples, before and after.
+
+use crate::room::{denoised, rendered, shipped};
+use lampray::compare::{Metric, Pair, Study, Viewing, flip};
+use lampray::film::{Picture, read_exr};
+use lampray::render::Task;
+
+/// By how much the error falls at least: (samples, RMSE, FLIP).
+type Falls = [(u64, f64, f64); 3];
+
+fn error(reference: &Picture, test: &Picture, metric: Metric) -> f64 {
+    let pair = Pair::new(reference.raster(), test.raster(), None).unwrap();
+    let viewing = Viewing {
+        ppd: flip::DEFAULT_PPD,
+        exposure: 0.0,
+        exposures: None,
+    };
+    Study::new(&pair, viewing).figure(metric).unwrap().value
+}
+
+fn check(name: &str, falls: Falls) {
+    let path = format!("{}/tests/references/{name}.exr", env!("CARGO_MANIFEST_DIR"));
+    let reference = read_exr(path).unwrap();
+    let mut poor = Vec::new();
+    for (samples, rmse, flip) in falls {
+        let scene = shipped(name, 64, 64, samples);
+        let task = Task::new(&scene);
+        let before = rendered(&task);
+        let after = denoised(&task, &before);
+        for (metric, least) in [(Metric::Rmse, rmse), (Metric::Flip, flip)] {
+            let [was, is] = [&before, &after].map(|test| error(&reference, test, metric));
+            let text = format!(
+                "{name} {samples} {}: {was:.4} -> {is:.4}, {:.2}",
+                metric.title(),
+                was / is
+            );
+            println!("{text}, at least {least}");
+            if was < least * is {
+                poor.push(text);
+            }
+        }
+        let change = |channel: usize| after.record.mean[channel] / before.record.mean[channel];
+        assert!(
+            (0..3).all(|channel| (change(channel) - 1.0).abs() < 0.02),
+            "{:?}",
+            after.record.mean
+        );
+    }
+    assert!(poor.is_empty(), "{poor:#?}");
+}
+
+#[test]
+fn cornell_is_better() {
+    check("cornell", [(4, 1.0, 1.0), (16, 1.0, 1.0), (64, 1.0, 1.0)]);
+}
+
+#[test]
+fn three_balls_are_better() {
+    check(
+        "three-balls",
+        [(4, 1.0, 1.0), (16, 1.0, 1.0), (64, 1.0, 1.0)],
+    );
+}
+
+#[test]
+fn many_lamps_are_better() {
+    check(
+        "many-lamps",
+        [(4, 1.0, 1.0), (16, 1.0, 1.0), (64, 1.0, 1.0)],
+    );
+}
