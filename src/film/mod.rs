@@ -29,6 +29,7 @@ mod read;
 mod record;
 mod relative;
 mod same;
+mod scouts;
 mod tables;
 mod text;
 
@@ -42,5 +43,6 @@ pub use raster::{Noise, Pixels, Raster, Transfer};
 pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
 pub use record::{Record, Seconds, Stop};
-pub use relative::RelativeError;
+pub use relative::{QUANTILE, RelativeError};
+pub use scouts::{AdaptiveRecord, SCOUTS, Scouts, TILE, Tiles};
 pub use text::SCENE_TEXT_LIMIT;

@@ -6,7 +6,7 @@ use super::Film;
 /// is all but black would never be small beside its mean alone.
 const FLOOR: f64 = 0.01;
 /// The share of pixels whose error is below [`RelativeError::pixels`].
-const QUANTILE: f64 = 0.95;
+pub const QUANTILE: f64 = 0.95;
 
 /// Standard errors beside means, of what is the mean over the channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl Film {
                 pixels: f64::INFINITY,
             };
         }
-        let mean = average(self.picture_mean());
+        let mean = self.brightness();
         let of_pixel = |pixel: usize| {
             let count = self.counts[pixel] as f64;
             let error = error(self.variance(pixel).map(|variance| variance / count));
@@ -66,5 +66,32 @@ impl Film {
             picture: ratio(error(self.standard_error().map(|e| e * e)), mean),
             pixels: percentile,
         }
+    }
+
+    /// Mean of the picture over pixels and channels.
+    pub fn brightness(&self) -> f64 {
+        average(self.picture_mean())
+    }
+
+    /// What a sample of each pixel adds to the variance of a mean, as [`RelativeError`] takes it: the mean over the
+    /// channels.
+    pub fn variances(&self) -> Vec<f64> {
+        let pixels = 0..self.counts.len();
+        pixels.map(|pixel| average(self.variance(pixel))).collect()
+    }
+
+    /// The number of samples at which each pixel's error, as [`RelativeError::pixels`] has it, is expected to be
+    /// `target`.
+    pub fn needed_samples(&self, target: f64) -> Vec<f64> {
+        let floor = FLOOR * self.brightness();
+        let variances = self.variances();
+        let need = |(pixel, variance): (usize, &f64)| {
+            ratio(
+                variance.sqrt(),
+                target * (average(self.mean(pixel)) + floor),
+            )
+            .powi(2)
+        };
+        variances.iter().enumerate().map(need).collect()
     }
 }
