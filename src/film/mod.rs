@@ -43,6 +43,6 @@ pub use raster::{Noise, Pixels, Raster, Transfer};
 pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
 pub use record::{Record, Seconds, Stop};
-pub use relative::{QUANTILE, RelativeError};
+pub use relative::{QUANTILE, RelativeError, needed_samples};
 pub use scouts::{AdaptiveRecord, SCOUTS, Scouts, TILE, Tiles};
 pub use text::SCENE_TEXT_LIMIT;

@@ -73,25 +73,21 @@ impl Film {
         average(self.picture_mean())
     }
 
-    /// What a sample of each pixel adds to the variance of a mean, as [`RelativeError`] takes it: the mean over the
-    /// channels.
+    /// Variance of one sample of each pixel, as [`RelativeError`] takes it: the mean over the channels.
     pub fn variances(&self) -> Vec<f64> {
         let pixels = 0..self.counts.len();
         pixels.map(|pixel| average(self.variance(pixel))).collect()
     }
 
-    /// The number of samples at which each pixel's error, as [`RelativeError::pixels`] has it, is expected to be
-    /// `target`.
-    pub fn needed_samples(&self, target: f64) -> Vec<f64> {
-        let floor = FLOOR * self.brightness();
-        let variances = self.variances();
-        let need = |(pixel, variance): (usize, &f64)| {
-            ratio(
-                variance.sqrt(),
-                target * (average(self.mean(pixel)) + floor),
-            )
-            .powi(2)
-        };
-        variances.iter().enumerate().map(need).collect()
+    /// Mean of each pixel over the channels.
+    pub fn means(&self) -> Vec<f64> {
+        let pixels = 0..self.counts.len();
+        pixels.map(|pixel| average(self.mean(pixel))).collect()
     }
+}
+
+/// The number of samples at which the error of a pixel of this mean and this variance of one sample, as
+/// [`RelativeError::pixels`] has it, is expected to be `target` in a picture of this brightness.
+pub fn needed_samples(mean: f64, variance: f64, brightness: f64, target: f64) -> f64 {
+    ratio(variance.sqrt(), target * (mean + FLOOR * brightness)).powi(2)
 }

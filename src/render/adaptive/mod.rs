@@ -25,7 +25,7 @@
 //! the X: where by chance no rare bright path was met the error looks small, the tile ends, and stays too dark.
 //! Two halves that steer each other do better, but over several rounds not quite: what half A met decides how
 //! far B goes, and so what B meets, which decides how far A goes on. Here nothing comes back. The price is the
-//! scouts: with [`TRUST`] a sixteenth to an eighth of the samples of tiles that need many.
+//! scouts: a thirty-second to a sixteenth of the samples of tiles that need many, a run a pixel at least.
 //!
 //! # How it is run
 //!
@@ -35,6 +35,7 @@
 
 mod allot;
 mod rungs;
+mod smooth;
 mod work;
 
 pub(super) use work::Work;
@@ -48,8 +49,9 @@ pub(super) const RULE: &str = "scouts";
 
 /// Scouts of each pixel in the first round: a run.
 const FIRST_SCOUTS: u64 = RUN_LENGTH as u64;
-/// Samples that a scout can speak for.
-const TRUST: u64 = 16;
+/// Samples that a scout can speak for. With 16 nothing is gained that is worth the scouts, with 48 more is given
+/// than is needed: measured in the rooms that ship.
+const TRUST: u64 = 32;
 
 /// An adaptive render of which nothing is done.
 pub(super) fn scouts(region: Rect) -> Scouts {
