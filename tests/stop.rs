@@ -141,7 +141,7 @@ fn where_it_stops_depends_on_its_samples_alone() {
         go_on(&mut Cpu::new(), &task, &mut rendering, &mut watch).unwrap();
         let mut saved = record(&task, &rendering.devices[0], &rendering);
         rendering.film.describe(&mut saved);
-        Checkpoint::save(&file, &saved, [0, 100_000], &rendering.film).unwrap();
+        Checkpoint::save(&file, &saved, [0, 100_000], &rendering.film, None).unwrap();
         let checkpoint = Checkpoint::read(&file).unwrap();
         assert!(checkpoint.film == rendering.film);
         rendering = Rendering::of_checkpoint(&task, checkpoint).unwrap();

@@ -183,7 +183,7 @@ impl Keeper {
         let Some(device) = rendering.devices.first() else {
             return Ok(());
         };
-        if rendering.film.paths == self.kept {
+        if rendering.traced() == self.kept {
             return Ok(());
         }
         if self.path.exists() && !self.is_own() {
@@ -192,8 +192,9 @@ impl Keeper {
         let mut record = render::record(task, device, rendering);
         record.devices = rendering.devices.clone();
         rendering.film.describe(&mut record);
-        Checkpoint::save(&self.path, &record, self.samples, &rendering.film)?;
-        self.kept = rendering.film.paths;
+        let (film, scouts) = (&rendering.film, rendering.scouts.as_ref());
+        Checkpoint::save(&self.path, &record, self.samples, film, scouts)?;
+        self.kept = rendering.traced();
         self.hold()
     }
 

@@ -5,7 +5,7 @@ use super::signal::Watch;
 use super::{Output, Result, note};
 use crate::device::DeviceKind;
 use crate::error::Error;
-use crate::film::{Aov, Record, read_record};
+use crate::film::{Aov, Record, Stop, read_record};
 use crate::pack::Rect;
 use crate::render::{scene_hash, whole};
 use crate::scene::{Assignment, Scene};
@@ -46,7 +46,20 @@ impl Command {
         }
         let region = region_of(&self.image, &record, &scene)?;
         let [first, end] = whole_range(&self.image, &record)?;
-        if record.samples < end - first && !output.quiet {
+        let rules = match (&record.adaptive, record.target_error) {
+            (Some(_), Some(target)) => StopRules::adaptive(target),
+            _ => StopRules::default(),
+        };
+        let even = record.adaptive.is_none();
+        if let (Some(Stop::Time | Stop::Signal), false, false) =
+            (record.stopped, even, output.quiet)
+        {
+            note(&format!(
+                "warning: {} was stopped before its scouts' samples were all taken: rendering all of them",
+                self.image.display()
+            ));
+        }
+        if even && record.samples < end - first && !output.quiet {
             note(&format!(
                 "warning: {} was stopped when some of its pixels had {} samples and others up to {}: rendering {} of each",
                 self.image.display(),
@@ -65,7 +78,7 @@ impl Command {
             aovs,
             denoise: record.denoised.map(|denoised| denoised.by),
             device: &device,
-            rules: StopRules::default(),
+            rules,
             keep: KeepOptions::default(),
             no_times: false,
             signals,
@@ -112,11 +125,19 @@ fn region_of(image: &Path, record: &Record, scene: &Scene) -> Result<Rect> {
     }
 }
 
-/// The range of samples, where it is one.
+/// The range of samples, where it is one; of an adaptive render the range that its pixels could take from.
 fn whole_range(image: &Path, record: &Record) -> Result<[u64; 2]> {
-    match record.ranges().as_slice() {
+    let ranges = match &record.adaptive {
+        Some(adaptive) => adaptive.allowed.clone(),
+        None => record.ranges(),
+    };
+    match ranges.as_slice() {
         [[first, end]] if first < end && *end <= 1 << 63 => Ok([*first, *end]),
         [_] => damaged(image, "its range of samples is empty".into()),
+        _ if record.adaptive.is_some() => damaged(
+            image,
+            "it was merged, and the samples of a part went where the error was: render its parts one by one".into(),
+        ),
         _ => damaged(
             image,
             "it was merged from ranges with gaps: render those one by one".into(),

@@ -43,9 +43,24 @@ pub(crate) struct StopRules {
     #[arg(long, value_name = "SECONDS", value_parser = super::options::seconds, allow_negative_numbers = true)]
     time: Option<Duration>,
     /// Stop when the standard error of the mean of the picture, relative to it, is at most E and so are those of
-    /// 95 % of the pixels; looked at after 64 samples and then each eighth more. render.samples stays the most
+    /// 95 % of the pixels. Samples go where the error is, as scouts foresee it: samples that are not in the picture,
+    /// so that it has no bias. render.samples stays the most
     #[arg(long, value_name = "E", value_parser = super::options::relative_error, allow_negative_numbers = true)]
     target_error: Option<f64>,
+    /// Give every pixel the same number of samples, and look at the picture's own error after 64 and then each
+    /// eighth more
+    #[arg(long, requires = "target_error")]
+    even: bool,
+}
+
+impl StopRules {
+    /// Those of a picture whose samples went where the error was.
+    pub(crate) fn adaptive(target_error: f64) -> Self {
+        Self {
+            target_error: Some(target_error),
+            ..Self::default()
+        }
+    }
 }
 
 impl Run<'_> {
@@ -58,6 +73,7 @@ impl Run<'_> {
             features: !self.aovs.is_empty(),
             denoised: self.denoise.is_some(),
             target_error: self.rules.target_error,
+            adaptive: self.rules.target_error.is_some() && !self.rules.even,
             ..Task::new(self.scene)
         };
         render::refuse_too_large(&task)?;
@@ -83,11 +99,14 @@ impl Run<'_> {
             true => session.denoise(&mut device, &rendering, denoised, record.as_mut()),
             false => Ok(false),
         };
-        let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
+        let enough = matches!(
+            rendering.stopped,
+            None | Some(Stop::TargetError | Stop::Allotted)
+        );
         let done = enough && traced.is_ok() && written.is_ok() && matches!(smoothed, Ok(true));
         let kept = session.keep(keeper, &rendering, done);
         if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
-            warn_non_finite(&rendering.film);
+            warn_non_finite(&rendering);
             note(&summary(record));
             session.tell_of_error(&rendering);
         }
@@ -143,8 +162,8 @@ impl Session<'_> {
         let signals = &self.run.signals;
         let bar = progress_bar(self.output, self.run.scene);
         let mut watch = |rendering: &Rendering| {
-            bar.set_length(rendering.total);
-            bar.set_position(rendering.film.paths);
+            bar.set_length(rendering.length());
+            bar.set_position(rendering.traced());
             if signals.hung_up() {
                 bar.suspend(|| self.write_meanwhile(rendering));
             }
@@ -172,19 +191,26 @@ impl Session<'_> {
         traced
     }
 
-    /// Says where a render of all its samples has a larger error than was asked for.
+    /// Says where a render that had all it was to have has a larger error than was asked for.
     fn tell_of_error(&self, rendering: &Rendering) {
-        let Some(target) = self.run.rules.target_error.filter(|_| rendering.complete()) else {
+        let over = rendering.complete() || rendering.stopped == Some(Stop::Allotted);
+        let Some(target) = self.run.rules.target_error.filter(|_| over) else {
             return;
         };
         let found = rendering.film.relative_error();
-        if !found.reaches(target) {
-            let text = format!(
-                "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; give it more samples",
-                found.picture, found.pixels
-            );
-            remark(&text, self.output);
+        if found.reaches(target) {
+            return;
         }
+        let all = self.task.samples.end - self.task.samples.start;
+        let remedy = match rendering.film.counts.contains(&all) {
+            true => "give it more samples",
+            false => "its scouts foresaw less: ask for a smaller one",
+        };
+        let text = format!(
+            "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; {remedy}",
+            found.picture, found.pixels
+        );
+        remark(&text, self.output);
     }
 
     /// The picture as it stands; none while there are pixels without a sample.
@@ -291,7 +317,14 @@ fn progress_bar(output: Output, scene: &Scene) -> ProgressBar {
     bar
 }
 
-fn warn_non_finite(film: &Film) {
+fn warn_non_finite(rendering: &Rendering) {
+    let scouts = rendering.scouts.as_ref().map(|scouts| &scouts.film);
+    for film in [Some(&rendering.film), scouts].into_iter().flatten() {
+        warn_non_finite_of(film);
+    }
+}
+
+fn warn_non_finite_of(film: &Film) {
     if let Some(first) = &film.first_non_finite {
         note(&format!(
             "warning: {} of {} samples were not finite and count as black; the first is sample {} of pixel {},{}",
@@ -306,6 +339,7 @@ fn summary(record: &Record) -> String {
         None if record.complete => "",
         None => " so far",
         Some(Stop::TargetError) => " (error as asked for)",
+        Some(Stop::Allotted) => " (all that was allotted)",
         Some(Stop::Time) => " (time is up)",
         Some(Stop::Signal) => " (stopped)",
     };
@@ -314,14 +348,30 @@ fn summary(record: &Record) -> String {
         .into_iter()
         .map(|device| device.name)
         .collect();
-    let speed = record.paths as f64 / record.seconds.render.max(1e-9) / 1e6;
+    let scouts = record
+        .adaptive
+        .as_ref()
+        .map_or(0, |adaptive| adaptive.scout_paths);
+    let paths = record.paths.saturating_add(scouts);
+    let speed = paths as f64 / record.seconds.render.max(1e-9) / 1e6;
     format!(
         "{}: {}x{}, {} samples a pixel{state} in {:.2} s ({speed:.2} Msamples/s) on {}",
         record.outputs.join(", "),
         record.width,
         record.height,
-        record.samples,
+        counted(record),
         record.seconds.render,
         devices.join(" and ")
     )
+}
+
+/// Samples a pixel, and of how many where they differ by design.
+fn counted(record: &Record) -> String {
+    if record.adaptive.is_none() {
+        return record.samples.to_string();
+    }
+    let pixels = f64::from(record.width) * f64::from(record.height);
+    let [first, end] = record.sample_range;
+    let mean = record.paths as f64 / pixels;
+    format!("{} to {} (mean {mean:.1})", record.samples, end - first)
 }

@@ -42,6 +42,9 @@ pub struct Described {
     pub left_aside: Vec<String>,
     /// Samples a pixel, where it is known: the least.
     pub samples: Option<u64>,
+    /// The most, where pixels have not all the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub most_samples: Option<u64>,
     pub device: Option<String>,
     pub seed: Option<u64>,
 }
@@ -274,14 +277,20 @@ fn conclude(
 }
 
 fn describe(image: &Raster) -> Described {
-    let least = |noise: &Noise| noise.samples.iter().copied().fold(f32::INFINITY, f32::min) as u64;
+    let range = |noise: &Noise| {
+        let counts = noise.samples.iter().copied();
+        let least = counts.clone().fold(f32::INFINITY, f32::min) as u64;
+        (least, counts.fold(0.0, f32::max) as u64)
+    };
+    let range = image.noise.as_ref().map(range);
     let of_record = image.record.as_ref().map(|record| record.samples);
     Described {
         format: image.format.clone(),
         width: image.width,
         height: image.height,
         left_aside: image.left_aside.clone(),
-        samples: image.noise.as_ref().map(least).or(of_record),
+        samples: range.map(|(least, _)| least).or(of_record),
+        most_samples: range.and_then(|(least, most)| (most > least).then_some(most)),
         device: image
             .record
             .as_ref()

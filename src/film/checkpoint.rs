@@ -2,15 +2,18 @@
 //! stopped.
 //!
 //! ```text
-//! magic (8 bytes) | length of the head, u64 | head, JSON | sums, squares: 3 x f64 a pixel | counts: u64 a pixel | BLAKE3 (32 bytes)
+//! magic (8 bytes) | length of the head, u64 | head, JSON | film | BLAKE3 (32 bytes)
+//! film = sums, squares: 3 x f64 a pixel | counts: u64 a pixel
 //! ```
 //!
-//! Numbers are little-endian; the hash is over everything before it.
+//! Where sampling is adaptive, the film of the scouts follows that of the picture, and then, u64 a tile, the
+//! scouts that were asked for and, where that is decided, the samples that the picture is to have. Numbers are little-endian; the hash is over everything before it.
 
 use super::bytes::data;
 use super::moments::{Film, NonFinite};
 use super::record::Record;
 use super::same::difference;
+use super::scouts::{Scouts, Tiles};
 use crate::error::{Error, Result};
 use crate::knobs::short;
 use crate::pack::Rect;
@@ -38,6 +41,8 @@ pub struct Checkpoint {
     /// The samples of each pixel that were asked for: from the first on, up to and without the second.
     pub samples: [u64; 2],
     pub film: Film,
+    /// Of adaptive sampling.
+    pub scouts: Option<Scouts>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -47,6 +52,59 @@ struct Head {
     region: [u32; 4],
     /// Sample, row and column.
     first_non_finite: Option<(u64, u32, u32)>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    scouts: Option<ScoutsHead>,
+}
+
+/// What the planes of scouts do not say.
+#[derive(Serialize, Deserialize)]
+struct ScoutsHead {
+    decided: bool,
+    rays: u64,
+    non_finite: u64,
+    first_non_finite: Option<(u64, u32, u32)>,
+}
+
+impl ScoutsHead {
+    fn of(scouts: &Scouts) -> Self {
+        let film = &scouts.film;
+        Self {
+            decided: !scouts.wanted.is_empty(),
+            rays: film.rays,
+            non_finite: film.non_finite,
+            first_non_finite: film.first_non_finite.map(place),
+        }
+    }
+
+    /// Bytes of their film and of what was decided.
+    fn announced(&self, region: Rect) -> u64 {
+        let tiles = Tiles::of(region).count() as u64 * (1 + u64::from(self.decided));
+        (region.area() as u64)
+            .saturating_mul(PIXEL)
+            .saturating_add(8 * tiles)
+    }
+
+    fn read(&self, reader: &mut impl Read, region: Rect) -> io::Result<Scouts> {
+        let mut scouts = Scouts::new(region, 0);
+        get_film(reader, &mut scouts.film)?;
+        get(reader, &mut scouts.asked, u64::from_le_bytes)?;
+        if self.decided {
+            scouts.wanted = scouts.asked.clone();
+            get(reader, &mut scouts.wanted, u64::from_le_bytes)?;
+        }
+        let film = &mut scouts.film;
+        (film.rays, film.non_finite) = (self.rays, self.non_finite);
+        film.first_non_finite = self.first_non_finite.map(non_finite);
+        Ok(scouts)
+    }
+}
+
+fn place(first: NonFinite) -> (u64, u32, u32) {
+    (first.sample, first.y, first.x)
+}
+
+fn non_finite((sample, y, x): (u64, u32, u32)) -> NonFinite {
+    NonFinite { sample, y, x }
 }
 
 /// Where the checkpoint before the last is kept.
@@ -61,15 +119,20 @@ impl Checkpoint {
     ///
     /// # Errors
     /// [`Error::Create`] or [`Error::Write`]; what was there before is then still there.
-    pub fn save(path: &Path, record: &Record, samples: [u64; 2], film: &Film) -> Result<()> {
+    pub fn save(
+        path: &Path,
+        record: &Record,
+        samples: [u64; 2],
+        film: &Film,
+        scouts: Option<&Scouts>,
+    ) -> Result<()> {
         let rect = film.region;
         let head = Head {
             record: record.clone(),
             samples,
             region: [rect.x0, rect.y0, rect.x1, rect.y1],
-            first_non_finite: film
-                .first_non_finite
-                .map(|first| (first.sample, first.y, first.x)),
+            first_non_finite: film.first_non_finite.map(place),
+            scouts: scouts.map(ScoutsHead::of),
         };
         let head = serde_json::to_vec(&head).map_err(|fault| Error::Internal(fault.to_string()))?;
         Place::prepare(path)?.write_keeping(&previous(path), |sink| {
@@ -77,10 +140,13 @@ impl Checkpoint {
             sink.write_all(&MAGIC)?;
             sink.write_all(&(head.len() as u64).to_le_bytes())?;
             sink.write_all(&head)?;
-            for plane in [&film.sums, &film.squares] {
-                put(&mut sink, plane.as_flattened(), |value| value.to_le_bytes())?;
+            put_film(&mut sink, film)?;
+            if let Some(scouts) = scouts {
+                put_film(&mut sink, &scouts.film)?;
+                for tiles in [&scouts.asked, &scouts.wanted] {
+                    put(&mut sink, tiles, |count| count.to_le_bytes())?;
+                }
             }
-            put(&mut sink, &film.counts, |count| count.to_le_bytes())?;
             let hash = sink.hasher.finalize();
             sink.inner.write_all(hash.as_bytes())
         })
@@ -132,46 +198,54 @@ impl Checkpoint {
         if x0 >= x1 || y0 >= y1 {
             return Ok(Err("the checkpoint is damaged: it is of no pixels".into()));
         }
-        let sides = [x1 - x0, y1 - y0].map(u64::from);
+        let region = Rect { x0, y0, x1, y1 };
         // Nothing is allocated that the file does not have.
-        let announced = sides[0].saturating_mul(sides[1]).saturating_mul(PIXEL);
+        let of_scouts = head
+            .scouts
+            .as_ref()
+            .map_or(0, |scouts| scouts.announced(region));
+        let announced = (region.area() as u64)
+            .saturating_mul(PIXEL)
+            .saturating_add(of_scouts);
         if announced != length - fixed - head_length {
             return cut();
         }
-        let mut film = Film::new(Rect { x0, y0, x1, y1 });
-        for plane in [&mut film.sums, &mut film.squares] {
-            get(reader, plane.as_flattened_mut(), f64::from_le_bytes)?;
-        }
-        get(reader, &mut film.counts, u64::from_le_bytes)?;
+        let mut film = Film::new(region);
+        get_film(reader, &mut film)?;
+        let scouts = match &head.scouts {
+            Some(scouts) => Some(scouts.read(reader, region)?),
+            None => None,
+        };
         let hash = reader.hasher.finalize();
         if take::<32>(reader)? != *hash.as_bytes() {
             return Ok(Err(
                 "the checkpoint is damaged: its checksum is another".into()
             ));
         }
-        Ok(Self::of(head, film))
+        Ok(Self::of(head, film, scouts))
     }
 
     /// What a whole file says, if it can be.
-    fn of(head: Head, mut film: Film) -> std::result::Result<Self, String> {
-        let add = |sum: u64, count: &u64| sum.checked_add(*count);
-        let paths = film.counts.iter().try_fold(0, add);
-        let planes = [&film.sums, &film.squares];
-        let finite =
-            |plane: &&Vec<[f64; 3]>| plane.as_flattened().iter().all(|sum| sum.is_finite());
-        film.paths = match paths {
-            Some(paths) if paths == head.record.paths && planes.iter().all(finite) => paths,
-            _ => return Err("the checkpoint holds no sums of a render".into()),
-        };
+    fn of(
+        head: Head,
+        mut film: Film,
+        mut scouts: Option<Scouts>,
+    ) -> std::result::Result<Self, String> {
+        let no_sums = || "the checkpoint holds no sums of a render".to_string();
+        film.paths = paths(&film)
+            .filter(|paths| *paths == head.record.paths)
+            .ok_or_else(no_sums)?;
+        if let Some(scouts) = &mut scouts {
+            scouts.film.paths = paths(&scouts.film).ok_or_else(no_sums)?;
+        }
         film.rays = head.record.rays;
         film.non_finite = head.record.non_finite;
-        film.first_non_finite =
-            head.first_non_finite
-                .map(|(sample, y, x)| NonFinite { sample, y, x });
+        film.first_non_finite = head.first_non_finite.map(non_finite);
         Ok(Self {
             record: head.record,
             samples: head.samples,
             film,
+            scouts,
         })
     }
 
@@ -232,6 +306,11 @@ impl Checkpoint {
                 |target: Option<f64>| target.map_or("none".into(), |error| error.to_string());
             return other("the target error", &shown(targets[0]), &shown(targets[1]));
         }
+        let rules = [&wanted.adaptive, &self.record.adaptive];
+        let rules = rules.map(|rule| rule.as_ref().map_or("even", |rule| &rule.rule));
+        if rules[0] != rules[1] {
+            return other("how the samples are shared out", rules[0], rules[1]);
+        }
         if samples != self.samples {
             let shown = |[from, to]: [u64; 2]| format!("{from}..{to}");
             return other(
@@ -255,6 +334,15 @@ impl Checkpoint {
         }
         Ok(())
     }
+}
+
+/// How many paths a film's sums are of, if they can be sums.
+fn paths(film: &Film) -> Option<u64> {
+    let planes = [&film.sums, &film.squares];
+    let mut sums = planes.into_iter().flat_map(|plane| plane.as_flattened());
+    let finite = sums.all(|sum| sum.is_finite());
+    let add = |sum: u64, count: &u64| sum.checked_add(*count);
+    film.counts.iter().try_fold(0, add).filter(|_| finite)
 }
 
 /// Bytes on their way through a hash.
@@ -327,4 +415,18 @@ fn get<T>(
         }
     }
     Ok(())
+}
+
+fn put_film(sink: &mut impl Write, film: &Film) -> io::Result<()> {
+    for plane in [&film.sums, &film.squares] {
+        put(sink, plane.as_flattened(), |value| value.to_le_bytes())?;
+    }
+    put(sink, &film.counts, |count| count.to_le_bytes())
+}
+
+fn get_film(reader: &mut impl Read, film: &mut Film) -> io::Result<()> {
+    for plane in [&mut film.sums, &mut film.squares] {
+        get(reader, plane.as_flattened_mut(), f64::from_le_bytes)?;
+    }
+    get(reader, &mut film.counts, u64::from_le_bytes)
 }

@@ -2,7 +2,7 @@
 
 use super::moments::{PictureMean, narrow};
 use super::parts::{Part, SAMPLES, check_disjoint, compare};
-use super::{Picture, Record};
+use super::{AdaptiveRecord, Picture, Record};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use std::path::Path;
@@ -160,6 +160,7 @@ impl Sum {
 }
 
 fn add_record(sum: &mut Record, other: &Record) {
+    sum.adaptive = both_adaptive(sum, other);
     sum.samples = sum.samples.saturating_add(other.samples);
     sum.paths = sum.paths.saturating_add(other.paths);
     sum.rays = sum.rays.saturating_add(other.rays);
@@ -171,6 +172,27 @@ fn add_record(sum: &mut Record, other: &Record) {
     sum.complete &= other.complete;
     sum.stopped = sum.stopped.or(other.stopped);
     sum.biased |= other.biased;
+}
+
+/// What is said of scouts where a part had some. They are no part's samples, so that counts which follow from them
+/// are good weights: see `render/adaptive`.
+fn both_adaptive(sum: &Record, other: &Record) -> Option<AdaptiveRecord> {
+    let either = sum.adaptive.as_ref().or(other.adaptive.as_ref())?;
+    let allowed = |record: &Record| match &record.adaptive {
+        Some(adaptive) => adaptive.allowed.clone(),
+        None => record.ranges(),
+    };
+    let scouts = |of: fn(&AdaptiveRecord) -> u64| {
+        let parts = [sum, other].map(|record| record.adaptive.as_ref().map_or(0, of));
+        parts[0].saturating_add(parts[1])
+    };
+    Some(AdaptiveRecord {
+        allowed: [allowed(sum), allowed(other)].concat(),
+        scout_paths: scouts(|adaptive| adaptive.scout_paths),
+        scout_rays: scouts(|adaptive| adaptive.scout_rays),
+        scout_non_finite: scouts(|adaptive| adaptive.scout_non_finite),
+        ..either.clone()
+    })
 }
 
 /// Joins ranges that touch; what is left is listed only if there is more than one.

@@ -30,6 +30,7 @@ mod read;
 mod record;
 mod relative;
 mod same;
+mod scouts;
 mod tables;
 mod text;
 
@@ -44,5 +45,6 @@ pub use raster::{Noise, Pixels, Raster, Transfer};
 pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
 pub use record::{Record, Seconds, Stop};
-pub use relative::RelativeError;
+pub use relative::{QUANTILE, RelativeError, needed_samples};
+pub use scouts::{AdaptiveRecord, SCOUTS, Scouts, TILE, Tiles};
 pub use text::SCENE_TEXT_LIMIT;

@@ -1,6 +1,7 @@
 //! The run record: everything needed to know what a picture is, and to render it again.
 
 use super::Denoised;
+use super::scouts::AdaptiveRecord;
 use crate::device::DeviceInfo;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -34,7 +35,7 @@ pub struct Record {
     /// last two exclusive; absent for all of it.
     #[serde(default)]
     pub crop: Option<[u32; 4]>,
-    /// Samples a pixel that were taken.
+    /// Samples a pixel that were taken: the fewest of any pixel, where they have not all the same.
     pub samples: u64,
     /// Which: from the first on, up to and without the second.
     pub sample_range: [u64; 2],
@@ -50,6 +51,9 @@ pub struct Record {
     /// The error at which it might end earlier, relative to the mean; absent where none was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target_error: Option<f64>,
+    /// How the samples were shared out over the picture; absent where every pixel was to have the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<AdaptiveRecord>,
     pub biased: bool,
     /// How it was denoised; absent for a mean of samples. `standard_error` is then that of the mean before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -130,6 +134,8 @@ pub struct Seconds {
 pub enum Stop {
     /// Its error was as small as was asked for.
     TargetError,
+    /// Adaptive sampling had shared out all that it was to, and the error is still not as small as was asked for.
+    Allotted,
     /// It had taken as long as was asked for.
     Time,
     /// Somebody wanted it to.

@@ -6,7 +6,7 @@ use super::Film;
 /// is all but black would never be small beside its mean alone.
 const FLOOR: f64 = 0.01;
 /// The share of pixels whose error is below [`RelativeError::pixels`].
-const QUANTILE: f64 = 0.95;
+pub const QUANTILE: f64 = 0.95;
 
 /// Standard errors beside means, of what is the mean over the channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl Film {
                 pixels: f64::INFINITY,
             };
         }
-        let mean = average(self.picture_mean());
+        let mean = self.brightness();
         let of_pixel = |pixel: usize| {
             let count = self.counts[pixel] as f64;
             let error = error(self.variance(pixel).map(|variance| variance / count));
@@ -67,4 +67,27 @@ impl Film {
             pixels: percentile,
         }
     }
+
+    /// Mean of the picture over pixels and channels.
+    pub fn brightness(&self) -> f64 {
+        average(self.picture_mean())
+    }
+
+    /// Variance of one sample of each pixel, as [`RelativeError`] takes it: the mean over the channels.
+    pub fn variances(&self) -> Vec<f64> {
+        let pixels = 0..self.counts.len();
+        pixels.map(|pixel| average(self.variance(pixel))).collect()
+    }
+
+    /// Mean of each pixel over the channels.
+    pub fn means(&self) -> Vec<f64> {
+        let pixels = 0..self.counts.len();
+        pixels.map(|pixel| average(self.mean(pixel))).collect()
+    }
+}
+
+/// The number of samples at which the error of a pixel of this mean and this variance of one sample, as
+/// [`RelativeError::pixels`] has it, is expected to be `target` in a picture of this brightness.
+pub fn needed_samples(mean: f64, variance: f64, brightness: f64, target: f64) -> f64 {
+    ratio(variance.sqrt(), target * (mean + FLOOR * brightness)).powi(2)
 }

@@ -34,12 +34,12 @@ pub fn endure(
     let Spares { anew, any, tell } = spares;
     let mut tried_anew = false;
     loop {
-        let before = rendering.film.paths;
+        let before = rendering.traced();
         let Err(error) = go_on(device.as_mut(), task, rendering, watch) else {
             return Ok(());
         };
         let twin_is_left = any && device.info().kind != DeviceKind::Cpu;
-        tried_anew &= rendering.film.paths == before;
+        tried_anew &= rendering.traced() == before;
         *device = match &error {
             Error::DeviceLost(reason) if !tried_anew => {
                 tried_anew = true;

@@ -1,12 +1,14 @@
 //! The thread that a device lives on while it renders: it alone calls the device, and keeps it busy.
 
+use super::adaptive::Work;
+use super::pace::Pace;
 use super::{Plan, Task};
 use crate::device::{Block, Device, IN_FLIGHT, Traced};
 use crate::error::Result;
 use crate::pack::{Feature, Packed, Rect};
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::SyncSender;
+use std::sync::mpsc::{Receiver, SyncSender};
 use std::time::{Duration, Instant};
 
 /// First hits that one call asks for.
@@ -20,15 +22,50 @@ pub(super) enum Fed {
         features: Option<Vec<Feature>>,
     },
     Traced(Block, Traced),
+    /// All work so far is done, and more may follow from it.
+    Spent,
 }
 
-/// Loads a task's scene and traces a plan, until nobody listens any more or there is enough. Blocks are started
-/// before the one in hand is done, so that the device never waits.
+/// Where blocks come from.
+pub(super) enum Supply {
+    /// One plan, which is all.
+    Plan(Plan),
+    /// One piece of work after another, each after the last was said to be spent.
+    Works(Pace, Receiver<Work>),
+}
+
+/// Blocks in their order, from either.
+trait Blocks {
+    fn next_block(&mut self) -> Option<Block>;
+    fn learn(&mut self, block: &Block, took: Duration);
+}
+
+impl Blocks for Plan {
+    fn next_block(&mut self) -> Option<Block> {
+        self.next_block()
+    }
+
+    fn learn(&mut self, block: &Block, took: Duration) {
+        self.learn(block, took);
+    }
+}
+
+impl Blocks for Work {
+    fn next_block(&mut self) -> Option<Block> {
+        self.next_block()
+    }
+
+    fn learn(&mut self, block: &Block, took: Duration) {
+        self.learn(block, took);
+    }
+}
+
+/// Loads a task's scene and traces what is supplied, until nobody listens any more or there is enough.
 pub(super) fn feed(
     device: &mut dyn Device,
     task: &Task,
     wants_features: bool,
-    mut plan: Plan,
+    supply: Supply,
     send: SyncSender<Fed>,
     enough: &AtomicBool,
 ) -> Result<()> {
@@ -41,24 +78,49 @@ pub(super) fn feed(
     if send.send(Fed::Loaded { setup, features }).is_err() {
         return Ok(());
     }
+    match supply {
+        Supply::Plan(mut plan) => trace(device, &mut plan, &send, enough).map(|_| ()),
+        Supply::Works(mut pace, works) => {
+            while send.send(Fed::Spent).is_ok()
+                && let Ok(mut work) = works.recv()
+            {
+                work.pace = pace;
+                if !trace(device, &mut work, &send, enough)? {
+                    break;
+                }
+                pace = work.pace;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// Traces all blocks; whether anybody wanted them all. Blocks are started before the one in hand is done, so that
+/// the device never waits.
+fn trace(
+    device: &mut dyn Device,
+    blocks: &mut dyn Blocks,
+    send: &SyncSender<Fed>,
+    enough: &AtomicBool,
+) -> Result<bool> {
     let mut started = VecDeque::new();
     while !enough.load(Ordering::SeqCst) {
         while started.len() < IN_FLIGHT
-            && let Some(block) = plan.next_block()
+            && let Some(block) = blocks.next_block()
         {
             device.start(block)?;
             started.push_back(block);
         }
         let Some(block) = started.pop_front() else {
-            break;
+            return Ok(true);
         };
         let traced = device.finish()?;
-        plan.learn(&block, traced.took);
+        blocks.learn(&block, traced.took);
         if send.send(Fed::Traced(block, traced)).is_err() {
             break;
         }
     }
-    Ok(())
+    Ok(false)
 }
 
 /// First hits of a rectangle, by strips that fit a device's buffers.

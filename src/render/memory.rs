@@ -17,6 +17,8 @@ const FEATURES: u64 = 32 + 32;
 /// Of a pixel while its picture is denoised: the picture as it was, what is known of the pixel without noise, and its
 /// light as it is and as it will be; then the picture as it becomes and its PNG on the way to the disk.
 const DENOISED: u64 = 28 + 48 + 12 + 3 * 16 + 12 + 9;
+/// Of a pixel whose samples are shared out by scouts: their sums, and how far it is.
+const SCOUTS: u64 = 56 + 32;
 /// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.
 const BODY: u64 = 1024;
 /// Results of a block are in the device's memory and in the host's, of several blocks at a time.
@@ -31,8 +33,10 @@ const THREAD: u64 = 80 << 20;
 pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
-    let of_pixel =
-        PIXEL + if task.features { FEATURES } else { 0 } + if task.denoised { DENOISED } else { 0 };
+    let of_pixel = PIXEL
+        + if task.features { FEATURES } else { 0 }
+        + if task.denoised { DENOISED } else { 0 }
+        + if task.terms().is_some() { SCOUTS } else { 0 };
     let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
     FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
 }

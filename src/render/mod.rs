@@ -1,10 +1,12 @@
 //! The loop that feeds a device with blocks and adds up what comes back.
 
+mod adaptive;
 mod choose;
 mod endure;
 mod feed;
 mod look;
 mod memory;
+mod pace;
 mod picture;
 mod plan;
 mod rendering;
@@ -21,10 +23,11 @@ use crate::error::{Error, Result};
 use crate::film::Stop;
 use crate::pack::{Rect, Traversal};
 use crate::scene::Scene;
-use feed::{Fed, feed};
+use adaptive::Work;
+use feed::{Fed, Supply, feed};
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
 use std::thread;
 use std::time::Duration;
 
@@ -48,6 +51,9 @@ pub struct Task<'a> {
     /// The error, relative to the mean, at which the render may stop before its last sample: see
     /// [`crate::film::Film::relative_error`].
     pub target_error: Option<f64>,
+    /// Whether the samples go where the error is, in the place of evenly over the picture; only beside a target
+    /// error.
+    pub adaptive: bool,
 }
 
 impl<'a> Task<'a> {
@@ -61,6 +67,7 @@ impl<'a> Task<'a> {
             denoised: false,
             traversal: Traversal::of(scene),
             target_error: None,
+            adaptive: false,
         }
     }
 
@@ -81,20 +88,40 @@ impl Task<'_> {
         (self.region.area() as u64).saturating_mul(samples)
     }
 
-    /// What is left of it where a film has some.
+    /// What adaptive sampling goes by, where it is wanted.
+    fn terms(&self) -> Option<adaptive::Terms> {
+        let target = self.target_error.filter(|_| self.adaptive)?;
+        Some(adaptive::Terms {
+            samples: self.samples.clone(),
+            target,
+        })
+    }
+
+    /// What is left of it where a film has some. Of an adaptive render it is the pace alone: what is left follows
+    /// from the scouts.
     ///
     /// # Errors
     /// [`Error::Internal`] for a film that this task cannot have left so.
     fn rest(&self, rendering: &Rendering) -> Result<Plan> {
         let film = &rendering.film;
-        let plan = (film.region == self.region)
-            .then(|| Plan::resume(self.region, self.samples.clone(), &film.counts));
+        let samples = self.samples.clone();
         let stray = || Error::Internal("the film is of another render".into());
-        let plan = plan.flatten().ok_or_else(stray)?;
-        Ok(match self.target_error {
-            Some(_) => plan.with_looks(),
-            None => plan,
-        })
+        if film.region != self.region {
+            return Err(stray());
+        }
+        match (self.terms(), &rendering.scouts) {
+            (Some(terms), Some(scouts)) => adaptive::is_possible(&terms, film, scouts)
+                .then(|| Plan::new(self.region, samples))
+                .ok_or_else(stray),
+            (None, None) => {
+                let plan = Plan::resume(self.region, samples, &film.counts).ok_or_else(stray)?;
+                Ok(match self.target_error {
+                    Some(_) => plan.with_looks(),
+                    None => plan,
+                })
+            }
+            _ => Err(stray()),
+        }
     }
 }
 
@@ -137,7 +164,7 @@ pub fn go_on(
     go_on_by(device, task, plan, rendering, watch)
 }
 
-/// [`go_on`] by a plan of one's own.
+/// [`go_on`] by a plan of one's own; an adaptive render has the plan's pace alone.
 ///
 /// The device is fed by a thread of its own, which makes all calls to it; blocks are added up here meanwhile.
 ///
@@ -154,12 +181,17 @@ pub fn go_on_by(
     let enough = AtomicBool::new(false);
     thread::scope(|scope| {
         let (send, receive) = sync_channel(1);
+        let (more, works) = channel();
         let wants_features = task.features && rendering.features.is_none();
+        let supply = match task.terms().is_some() {
+            true => Supply::Works(plan.pace(), works),
+            false => Supply::Plan(plan),
+        };
         let feeder = scope.spawn({
             let enough = &enough;
-            move || feed(device, task, wants_features, plan, send, enough)
+            move || feed(device, task, wants_features, supply, send, enough)
         });
-        let stopped = gather(task, rendering, watch, receive);
+        let stopped = gather(task, rendering, watch, receive, more);
         enough.store(true, Ordering::SeqCst);
         let fed = feeder
             .join()
@@ -175,13 +207,16 @@ fn gather(
     rendering: &mut Rendering,
     watch: &mut Watch,
     receive: Receiver<Fed>,
+    more: Sender<Work>,
 ) -> bool {
     loop {
-        let looks = match receive.recv_timeout(TICK) {
-            Ok(fed) => rendering.add(fed),
-            Err(RecvTimeoutError::Timeout) => false,
+        let (mut looks, mut spent) = (false, false);
+        match receive.recv_timeout(TICK) {
+            Ok(Fed::Spent) => spent = true,
+            Ok(fed) => looks = rendering.add(fed),
+            Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => return false,
-        };
+        }
         let good = || looks && rendering.reached(task);
         let flow = if good() {
             ControlFlow::Break(Stop::TargetError)
@@ -191,6 +226,14 @@ fn gather(
         if let ControlFlow::Break(stop) = flow {
             rendering.stopped = (!rendering.complete()).then_some(stop);
             return true;
+        }
+        if spent {
+            let Some(work) = rendering.next_work(task) else {
+                rendering.stopped = rendering.allotted(task);
+                return true;
+            };
+            // Who no longer listens has failed, and says so when it is joined.
+            let _ = more.send(work);
         }
     }
 }

@@ -1,8 +1,8 @@
 //! From a rendering to a picture with its record.
 
-use super::{Rendering, Task, whole};
+use super::{Rendering, Task, adaptive, whole};
 use crate::device::DeviceInfo;
-use crate::film::{Aov, Features, Film, Picture, Record, Seconds};
+use crate::film::{AdaptiveRecord, Aov, Features, Film, Picture, Record, Seconds, TILE};
 
 /// Identifies a scene's text in records.
 pub fn scene_hash(text: &str) -> String {
@@ -51,6 +51,14 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         complete: rendering.complete(),
         stopped: rendering.stopped,
         target_error: task.target_error,
+        adaptive: rendering.scouts.as_ref().map(|scouts| AdaptiveRecord {
+            rule: adaptive::RULE.into(),
+            tile: TILE,
+            allowed: vec![[task.samples.start, task.samples.end]],
+            scout_paths: scouts.film.paths,
+            scout_rays: scouts.film.rays,
+            scout_non_finite: scouts.film.non_finite,
+        }),
         biased: settings.biased(),
         denoised: None,
         seconds: Seconds {

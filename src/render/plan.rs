@@ -2,36 +2,21 @@
 //! samples are added in order, in runs that end at fixed indices.
 
 use super::look;
+use super::pace::Pace;
 use crate::device::Block;
 use crate::pack::{RUN_LENGTH, Rect};
 use std::ops::Range;
 use std::time::Duration;
 
-/// How long a dispatch should take.
-const TARGET: Duration = Duration::from_millis(150);
-/// Samples of the first dispatch, before anything is known of the scene's cost: a scene would have to
-/// be a hundred thousand times as slow as a Cornell box on a software driver to make it take half a
-/// second.
-const FIRST_BUDGET: u64 = 64;
-/// From one dispatch to the next the plan grows at most by this factor: pixels differ in cost.
-const GROWTH: u64 = 16;
-/// How long a dispatch should take in the first band, where some pixels' cost is not known yet: those of a ball
-/// of mirrors may be ten times that of the sky over it.
-const FIRST_TARGET: Duration = Duration::from_millis(50);
-/// A block that takes less says more of the host than of its pixels.
-const TELLING: Duration = Duration::from_millis(20);
-/// The slowest pixels so far set the pace; how much of that is left after each block, in case something else
-/// held the machine up.
-const MEMORY: f64 = 0.9;
 /// Samples of a pixel that one dispatch takes where there is enough to do beside: long lanes keep
 /// the device full.
-const LONG: u64 = 64;
+pub(super) const LONG: u64 = 64;
 /// Samples of a pixel that any dispatch takes.
 const MOST_BAND: u64 = 64 * LONG;
 /// Pixels that keep every lane of a small device busy.
 const WIDE: u64 = 4096;
 /// The most tallies that a dispatch brings back: 32 MiB of them.
-const MOST_TALLIES: u64 = 1 << 20;
+pub(super) const MOST_TALLIES: u64 = 1 << 20;
 
 /// The most tallies that a block of a task can bring back.
 pub(super) fn most_tallies(region: Rect, samples: &Range<u64>) -> u64 {
@@ -52,12 +37,7 @@ pub struct Plan {
     band: Range<u64>,
     /// The pixel at which the next block starts, counted row by row in the region.
     next_pixel: u64,
-    /// Samples that the next block may take.
-    budget: u64,
-    /// Seconds a path of the slowest blocks, forgetting.
-    slowest: f64,
-    /// Blocks of exactly this many samples, whatever time they take.
-    fixed: bool,
+    pace: Pace,
     /// Whether bands end where somebody looks at the error.
     looks: bool,
 }
@@ -70,9 +50,7 @@ impl Plan {
             samples,
             band,
             next_pixel: 0,
-            budget: FIRST_BUDGET,
-            slowest: 0.0,
-            fixed: false,
+            pace: Pace::unknown(),
             looks: false,
         }
     }
@@ -116,25 +94,20 @@ impl Plan {
     /// however fast they are: for tests that the split does not matter.
     pub fn with_budget(region: Rect, samples: Range<u64>, budget: u64) -> Self {
         Self {
-            budget: budget.max(1),
-            fixed: true,
+            pace: Pace::fixed(budget),
             ..Self::new(region, samples)
         }
     }
 
     /// Learns how long a block took.
     pub fn learn(&mut self, block: &Block, took: Duration) {
-        if self.fixed {
-            return;
-        }
-        let pace = took.as_secs_f64().max(1e-6) / block.paths() as f64;
-        if took >= TELLING {
-            self.slowest = pace.max(self.slowest * MEMORY);
-        }
         let is_first = block.first_sample == self.samples.start;
-        let target = if is_first { FIRST_TARGET } else { TARGET };
-        let wanted = (target.as_secs_f64() / pace.max(self.slowest)) as u64;
-        self.budget = wanted.clamp(1, block.paths().saturating_mul(GROWTH));
+        self.pace.learn(block, took, is_first);
+    }
+
+    /// What it knows of the device's speed.
+    pub(super) fn pace(&self) -> Pace {
+        self.pace
     }
 
     /// The next block, or nothing when all is done.
@@ -144,7 +117,7 @@ impl Plan {
         }
         let samples = self.band.end - self.band.start;
         let runs = samples.div_ceil(u64::from(RUN_LENGTH)).max(1) + 1;
-        let most = (self.budget / samples).clamp(1, MOST_TALLIES / runs);
+        let most = (self.pace.budget / samples).clamp(1, MOST_TALLIES / runs);
         let rect = self.take_pixels(most);
         let block = Block {
             rect,
@@ -166,8 +139,8 @@ impl Plan {
         }
         let run = u64::from(RUN_LENGTH);
         let pixels = (self.region.area() as u64).min(WIDE);
-        let affordable = self.budget / pixels;
-        let whole = self.budget / self.region.area() as u64;
+        let affordable = self.pace.budget / pixels;
+        let whole = self.pace.budget / self.region.area() as u64;
         let wanted = affordable.min(LONG).max(whole).clamp(run, MOST_BAND);
         let mut end = (start / run)
             .saturating_add(wanted / run)
@@ -205,6 +178,7 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pace::TARGET;
     use super::*;
 
     /// Every sample of every pixel is taken once, in order, however the plan is driven.

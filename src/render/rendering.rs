@@ -1,9 +1,10 @@
 //! A render on its way, and what it gave.
 
+use super::adaptive::{self, Work};
 use super::feed::Fed;
 use super::{Task, look};
 use crate::device::DeviceInfo;
-use crate::film::{Checkpoint, Film, Stop};
+use crate::film::{Checkpoint, Film, SCOUTS, Scouts, Stop, Tiles};
 use crate::pack::Feature;
 use std::ops::Range;
 use std::time::Duration;
@@ -15,6 +16,8 @@ const LONGEST_EVER: Duration = Duration::from_secs(10_000_000_000);
 #[derive(Clone, Debug)]
 pub struct Rendering {
     pub film: Film,
+    /// What decides where samples go; none where all pixels get the same.
+    pub scouts: Option<Scouts>,
     pub features: Option<Vec<Feature>>,
     /// Why it ended before its last sample, if it did.
     pub stopped: Option<Stop>,
@@ -36,6 +39,7 @@ impl Rendering {
     pub fn new(task: &Task) -> Self {
         Self {
             film: Film::new(task.region),
+            scouts: task.terms().map(|_| adaptive::scouts(task.region)),
             features: None,
             stopped: None,
             devices: Vec::new(),
@@ -49,7 +53,12 @@ impl Rendering {
 
     /// What a checkpoint of this task holds; none where it cannot be one of this task.
     pub fn of_checkpoint(task: &Task, checkpoint: Checkpoint) -> Option<Self> {
-        let Checkpoint { record, film, .. } = checkpoint;
+        let Checkpoint {
+            record,
+            film,
+            scouts,
+            ..
+        } = checkpoint;
         // Times are added to, which must not be more than a clock can hold.
         let possible = |time: &Duration| *time < LONGEST_EVER;
         let seconds = |value| {
@@ -62,6 +71,7 @@ impl Rendering {
             tracing: seconds(record.seconds.render)?,
             longest: seconds(record.seconds.longest_block)?,
             film,
+            scouts,
             ..Self::new(task)
         };
         task.rest(&rendering).is_ok().then_some(rendering)
@@ -72,9 +82,34 @@ impl Rendering {
         self.film.paths == self.total
     }
 
+    /// Paths that were traced, those of scouts included.
+    pub fn traced(&self) -> u64 {
+        let scouts = self.scouts.as_ref().map_or(0, |scouts| scouts.film.paths);
+        self.film.paths.saturating_add(scouts)
+    }
+
+    /// Paths that are to be traced, as far as it is known.
+    pub fn length(&self) -> u64 {
+        let Some(scouts) = &self.scouts else {
+            return self.total;
+        };
+        let tiles = Tiles::of(self.film.region);
+        let sum = |counts: &[u64]| {
+            let of_pixel = |pixel| counts[tiles.of_pixel(pixel)];
+            (0..self.film.counts.len())
+                .map(of_pixel)
+                .fold(0, u64::saturating_add)
+        };
+        let picture = match scouts.wanted.as_slice() {
+            [] => self.total,
+            wanted => sum(wanted),
+        };
+        picture.saturating_add(sum(&scouts.asked))
+    }
+
     /// How much of it is done, 0 to 1.
     pub fn share(&self) -> f64 {
-        self.film.paths as f64 / self.total.max(1) as f64
+        self.traced() as f64 / self.length().max(1) as f64
     }
 
     /// Another device goes on with it.
@@ -93,10 +128,21 @@ impl Rendering {
                 self.features = features.or(self.features.take());
                 false
             }
+            Fed::Spent => false,
             Fed::Traced(block, traced) => {
-                self.film.add_block(&block, &traced.tallies);
                 self.tracing += traced.took;
                 self.longest = self.longest.max(traced.took);
+                if let Some(scouts) = &mut self.scouts {
+                    let scouting = block.first_sample >= SCOUTS;
+                    let film = if scouting {
+                        &mut scouts.film
+                    } else {
+                        &mut self.film
+                    };
+                    film.add_block(&block, &traced.tallies);
+                    return false;
+                }
+                self.film.add_block(&block, &traced.tallies);
                 let end = block.first_sample + u64::from(block.samples);
                 let pixels = self.film.region.area() as u64;
                 let of_all = pixels.saturating_mul(end - self.samples.start);
@@ -110,5 +156,20 @@ impl Rendering {
     pub(super) fn reached(&self, task: &Task) -> bool {
         task.target_error
             .is_some_and(|target| self.film.relative_error().reaches(target))
+    }
+
+    /// What an adaptive render does next, where all before is done; none where that was all.
+    pub(super) fn next_work(&mut self, task: &Task) -> Option<Work> {
+        adaptive::next(&task.terms()?, &self.film, self.scouts.as_mut()?)
+    }
+
+    /// Why an adaptive render that had its last piece of work ended before the last sample, if it did. What the
+    /// picture itself says of its error has decided nothing, and decides only what this is called.
+    pub(super) fn allotted(&self, task: &Task) -> Option<Stop> {
+        match (self.complete(), self.reached(task)) {
+            (true, _) => None,
+            (false, true) => Some(Stop::TargetError),
+            (false, false) => Some(Stop::Allotted),
+        }
     }
 }

@@ -236,6 +236,7 @@ fn record(samples: u64, seed: u64) -> Record {
         complete: true,
         stopped: None,
         target_error: None,
+        adaptive: None,
         biased: false,
         seconds: Seconds::default(),
         paths: 0,

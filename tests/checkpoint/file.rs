@@ -24,11 +24,12 @@ fn save(path: &Path, blocks: usize) -> Checkpoint {
     let mut record = record(&task, &rendering.devices[0], &rendering);
     rendering.film.describe(&mut record);
     let samples = [task.samples.start, task.samples.end];
-    Checkpoint::save(path, &record, samples, &rendering.film).expect("a checkpoint");
+    Checkpoint::save(path, &record, samples, &rendering.film, None).expect("a checkpoint");
     Checkpoint {
         record,
         samples,
         film: rendering.film,
+        scouts: None,
     }
 }
 
@@ -163,10 +164,11 @@ fn sums_that_are_no_numbers_are_refused() {
         record,
         samples,
         mut film,
+        ..
     } = save(&path, 9);
     for value in [f64::NAN, f64::INFINITY] {
         film.sums[1][2] = value;
-        Checkpoint::save(&path, &record, samples, &film).expect("a checkpoint");
+        Checkpoint::save(&path, &record, samples, &film, None).expect("a checkpoint");
         let found = reason(&path).unwrap_or_default();
         assert!(found.contains("no sums of a render"), "{found}");
     }
@@ -176,7 +178,7 @@ fn sums_that_are_no_numbers_are_refused() {
         x1: 3,
         y1: 2,
     });
-    Checkpoint::save(&path, &record, samples, &nothing).expect("a checkpoint");
+    Checkpoint::save(&path, &record, samples, &nothing, None).expect("a checkpoint");
     assert!(reason(&path).is_some(), "a film without the record's paths");
 }
 

@@ -15,7 +15,8 @@ fn resumed(task: &Task, rendering: &Rendering, folder: &Folder) -> Option<Render
     rendering.film.describe(&mut record);
     let path = folder.join("c");
     let samples = [task.samples.start, task.samples.end];
-    Checkpoint::save(&path, &record, samples, &rendering.film).expect("a checkpoint");
+    let scouts = rendering.scouts.as_ref();
+    Checkpoint::save(&path, &record, samples, &rendering.film, scouts).expect("a checkpoint");
     let checkpoint = Checkpoint::read(&path).expect("a checkpoint");
     let mut rendering = Rendering::of_checkpoint(task, checkpoint)?;
     let mut watch = |_: &_| ControlFlow::Continue(());

@@ -156,6 +156,7 @@ pub fn record(samples: std::ops::Range<u64>) -> Record {
         complete: true,
         stopped: None,
         target_error: None,
+        adaptive: None,
         biased: false,
         denoised: None,
         seconds: Seconds {

@@ -81,7 +81,8 @@ fn describe(text: &mut String, name: &str, path: &Path, image: &Described) {
         image.height
     );
     if let Some(samples) = image.samples {
-        let _ = write!(text, ", {samples} samples");
+        let most = image.most_samples.map(|most| format!(" to {most}"));
+        let _ = write!(text, ", {samples}{} samples", most.unwrap_or_default());
     }
     if let Some(seed) = image.seed {
         let _ = write!(text, ", seed {seed}");

@@ -43,13 +43,29 @@ pub fn needed(sides: &Sides, pooled: &[Estimate; 3], terms: Terms) -> Needed {
             (!sides.relation.paired && allowed > reference).then(|| test / (allowed - reference));
         alone = alone.zip(more).map(|(most, more)| most.max(more));
     }
-    let least = |side: Side| side.samples.iter().copied().fold(f32::INFINITY, f32::min);
-    let times = |side: Side, factor: f64| (f64::from(least(side)) * factor).ceil() as u64;
+    let times = |side: Side, factor: f64| (even(side) * factor).ceil() as u64;
     Needed {
         reference: times(sides.reference, factor),
         test: times(sides.test, factor),
         test_alone: alone.map(|factor| times(sides.test, factor)),
     }
+}
+
+/// Samples a pixel: where pixels have not all the same, as many of each as would leave the mean of the picture the
+/// variance that it has, in the channel that would take the most.
+fn even(side: Side) -> f64 {
+    let first = side.samples.first().copied().unwrap_or(0.0);
+    if side.samples.iter().all(|n| *n == first) {
+        return f64::from(first);
+    }
+    let pixels = side.mean.len() as f64;
+    let of_channel = |channel: usize| {
+        let of_one: f64 = side.variance.iter().map(|v| f64::from(v[channel])).sum();
+        let of_mean = of_mean(side, channel) * pixels * pixels;
+        if of_mean > 0.0 { of_one / of_mean } else { 0.0 }
+    };
+    let least = side.samples.iter().copied().fold(f32::INFINITY, f32::min);
+    (0..3).map(of_channel).fold(f64::from(least), f64::max)
 }
 
 /// Variance of the mean of a picture.

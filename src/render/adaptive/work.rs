@@ -1,0 +1,143 @@
+//! Which samples each dispatch of an adaptive render takes. As in a [`super::super::Plan`], the picture never
+//! depends on it.
+
+use super::super::pace::Pace;
+use super::super::plan::{LONG, MOST_TALLIES};
+use super::rungs;
+use crate::device::Block;
+use crate::film::Tiles;
+use crate::pack::{RUN_LENGTH, Rect};
+use std::ops::Range;
+use std::time::Duration;
+
+/// Fewest pixels of a block, where samples can be left for later.
+const FEWEST: u64 = 64;
+
+/// Hands out blocks until every pixel has as many samples as its tile wants.
+///
+/// Pixels advance together, from rung to rung of one ladder: a render that is stopped has no part that lags far
+/// behind. On each rung the pixels that are to go from the same count to the same count are covered by
+/// rectangles, each as wide as it can be and then as high: neighbouring tiles mostly want the same, and so share
+/// a dispatch.
+#[derive(Clone, Debug)]
+pub struct Work {
+    region: Rect,
+    tiles: Tiles,
+    /// The samples that there are.
+    samples: Range<u64>,
+    /// Of each tile, samples a pixel.
+    wanted: Vec<u64>,
+    /// Of each pixel, samples that were handed out.
+    taken: Vec<u64>,
+    /// Where pixels go now, samples.
+    rung: u64,
+    /// The pixel from which on one is looked for.
+    cursor: usize,
+    pub(in super::super) pace: Pace,
+}
+
+impl Work {
+    /// `taken` are the samples that pixels have already, `wanted` those that they are to have, by tiles.
+    pub(in super::super) fn new(
+        region: Rect,
+        samples: Range<u64>,
+        taken: Vec<u64>,
+        wanted: Vec<u64>,
+    ) -> Self {
+        Self {
+            region,
+            tiles: Tiles::of(region),
+            rung: rungs::FIRST,
+            samples,
+            wanted,
+            taken,
+            cursor: 0,
+            pace: Pace::unknown(),
+        }
+    }
+
+    /// Whether there is nothing to do.
+    pub(in super::super) fn is_empty(&self) -> bool {
+        let short =
+            |(pixel, taken): (usize, &u64)| *taken < self.wanted[self.tiles.of_pixel(pixel)];
+        !self.taken.iter().enumerate().any(short)
+    }
+
+    /// Learns how long a block took.
+    pub(in super::super) fn learn(&mut self, block: &Block, took: Duration) {
+        let is_first = block.first_sample == self.samples.start;
+        self.pace.learn(block, took, is_first);
+    }
+
+    /// Samples that a pixel is to have on this rung.
+    fn goal(&self, pixel: usize) -> u64 {
+        let wanted = self.wanted[self.tiles.of_pixel(pixel)];
+        rungs::whole(&self.samples, self.rung).min(wanted)
+    }
+
+    /// The next block, or nothing when all is done.
+    pub(in super::super) fn next_block(&mut self) -> Option<Block> {
+        let highest = self.wanted.iter().copied().max()?;
+        let first = loop {
+            let found =
+                (self.cursor..self.taken.len()).find(|&pixel| self.taken[pixel] < self.goal(pixel));
+            if found.is_some() {
+                break found?;
+            }
+            // What was cut short on this rung is below the goal still.
+            if self.cursor > 0 {
+                self.cursor = 0;
+            } else if self.rung < highest {
+                self.rung = rungs::next(self.rung);
+            } else {
+                return None;
+            }
+        };
+        self.cursor = first + 1;
+        Some(self.take(first))
+    }
+
+    /// Hands out a rectangle of pixels from one on.
+    fn take(&mut self, first: usize) -> Block {
+        let samples = self.samples_of(first);
+        let runs = samples.div_ceil(u64::from(RUN_LENGTH)) + 1;
+        let most = (self.pace.budget / samples).clamp(1, MOST_TALLIES / runs) as usize;
+        let alike = |pixel: &usize| {
+            self.taken[*pixel] == self.taken[first] && self.goal(*pixel) == self.goal(first)
+        };
+        let width = self.region.width() as usize;
+        let of_row = (first..first + width - first % width).take(most);
+        let wide = of_row.take_while(alike).count();
+        let rows = (first..self.taken.len()).step_by(width).take(most / wide);
+        let high = rows
+            .take_while(|start| (*start..start + wide).all(|pixel| alike(&pixel)))
+            .count();
+        let first_sample = self.samples.start + self.taken[first];
+        for row in 0..high {
+            let start = first + row * width;
+            self.taken[start..start + wide]
+                .iter_mut()
+                .for_each(|taken| *taken += samples);
+        }
+        let (x0, y0) = (
+            self.region.x0 + (first % width) as u32,
+            self.region.y0 + (first / width) as u32,
+        );
+        let (x1, y1) = (x0 + wide as u32, y0 + high as u32);
+        Block {
+            rect: Rect { x0, y0, x1, y1 },
+            first_sample,
+            samples: samples as u32,
+        }
+    }
+
+    /// Samples of each pixel that the next block takes: to the pixel's goal, or whole runs of what is affordable.
+    fn samples_of(&self, pixel: usize) -> u64 {
+        let run = u64::from(RUN_LENGTH);
+        let from = self.samples.start + self.taken[pixel];
+        let goal = self.samples.start + self.goal(pixel);
+        let affordable = (self.pace.budget / FEWEST).clamp(run, LONG * LONG);
+        let end = (from + affordable) / run * run;
+        end.min(goal) - from
+    }
+}
