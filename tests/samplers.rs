@@ -23,4 +23,5 @@ mod samplers {
     mod poles;
     mod sampling;
     mod scatter;
+    mod sequence;
 }

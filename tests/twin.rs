@@ -13,6 +13,8 @@ mod cases;
 mod inputs;
 #[path = "twin/reference.rs"]
 mod reference;
+#[path = "twin/sequence.rs"]
+mod sequence;
 
 use cases::Case;
 use lampray::pack::ProbeOutput;

@@ -16,6 +16,7 @@ pub mod random;
 pub mod ray;
 pub mod scatter;
 pub mod scene;
+pub mod sequence;
 pub mod sphere;
 pub mod trace;
 

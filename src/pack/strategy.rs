@@ -7,6 +7,9 @@ use crate::scene::Scene;
 /// where the sample index is a multiple of it, so that sums never depend on how work was split.
 pub const RUN_LENGTH: u32 = 16;
 
+// A randomisation is whole tallies.
+const _: () = assert!(randomisation::SHORTEST == RUN_LENGTH as u64);
+
 choice! {
     /// When the ray after the last reflection, which can only find emission, is traced.
     LastRay, "LAST_RAY" {
@@ -33,6 +36,9 @@ pub struct Strategy {
     pub interruption_weight: InterruptionWeight,
     pub interruption_order: InterruptionOrder,
     pub last_ray: LastRay,
+    pub sequence: Sequence,
+    /// Samples of one randomisation, as a power of two; 4 where samples are independent and have none.
+    pub randomisation_bits: u32,
     pub sphere_count: u32,
     pub box_count: u32,
     pub rotated_box_count: u32,
@@ -60,6 +66,11 @@ impl Strategy {
             interruption_weight: settings.interruption.weight,
             interruption_order: settings.interruption.order,
             last_ray: last_ray(scene),
+            sequence: settings.render.sequence,
+            randomisation_bits: settings
+                .render
+                .randomisation()
+                .map_or(RUN_LENGTH.ilog2(), u64::ilog2),
             sphere_count: spheres,
             box_count: boxes,
             rotated_box_count: rotated,
@@ -71,7 +82,7 @@ impl Strategy {
     }
 
     /// Names and values of all override constants of all kernels.
-    pub fn overrides(&self) -> [(&'static str, u32); 19] {
+    pub fn overrides(&self) -> [(&'static str, u32); 21] {
         [
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
@@ -85,6 +96,8 @@ impl Strategy {
             ("INTERRUPTION_WEIGHT", self.interruption_weight.index()),
             ("INTERRUPTION_ORDER", self.interruption_order.index()),
             ("LAST_RAY", self.last_ray.index()),
+            ("SEQUENCE", self.sequence.index()),
+            ("RANDOMISATION_BITS", self.randomisation_bits),
             ("SPHERE_COUNT", self.sphere_count),
             ("BOX_COUNT", self.box_count),
             ("ROTATED_BOX_COUNT", self.rotated_box_count),

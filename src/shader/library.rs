@@ -25,6 +25,7 @@ library!(
     "ray",
     "scatter",
     "scene",
+    "sequence",
     "sphere",
     "trace",
 );

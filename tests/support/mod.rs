@@ -60,6 +60,8 @@ pub fn strategy() -> Strategy {
         interruption_weight: InterruptionWeight::Compensated,
         interruption_order: InterruptionOrder::AfterDirect,
         last_ray: LastRay::Always,
+        sequence: Sequence::Independent,
+        randomisation_bits: 4,
         sphere_count: 0,
         box_count: 0,
         rotated_box_count: 0,

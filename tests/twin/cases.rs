@@ -56,6 +56,7 @@ pub fn all() -> Vec<Case> {
     let lights = lights.flat_map(|s| [sample_light_case(s), light_density_case(s)]);
     let survivals = survival_strategies().map(survival);
     let many = films.chain(scatters).chain(lights).chain(survivals);
+    let many = many.chain(crate::sequence::cases());
     single.into_iter().chain(many).collect()
 }
 
