@@ -56,6 +56,7 @@ impl Run<'_> {
             target_error: self.rules.target_error,
             ..Task::new(self.scene)
         };
+        task.refuse_cut()?;
         render::refuse_too_large(&task)?;
         let targets = Target::prepare_all(&self.outputs)?;
         let mut device = self.open(output)?;

@@ -5,10 +5,13 @@
 //! magic (8 bytes) | length of the head, u64 | head, JSON | sums, squares: 3 x f64 a pixel | counts: u64 a pixel | BLAKE3 (32 bytes)
 //! ```
 //!
+//! Where samples are cut into randomisations, the sums of the open ones stand behind the squares: 3 x f64 a pixel.
+//!
 //! Numbers are little-endian; the hash is over everything before it.
 
 use super::bytes::data;
 use super::moments::{Film, NonFinite};
+use super::randomisations::{Pictures, Randomisations};
 use super::record::Record;
 use super::same::difference;
 use crate::error::{Error, Result};
@@ -26,6 +29,8 @@ const MAGIC: [u8; 8] = *b"lampray1";
 const HEAD_LIMIT: u64 = 16 << 20;
 /// Of a pixel: two sums of three channels and a count.
 const PIXEL: u64 = 56;
+/// Of a pixel that has an open randomisation: three channels more.
+const OPEN: u64 = 24;
 const HASH: u64 = 32;
 /// Numbers that are read or written at a time.
 const CHUNK: usize = 1 << 13;
@@ -47,6 +52,16 @@ struct Head {
     region: [u32; 4],
     /// Sample, row and column.
     first_non_finite: Option<(u64, u32, u32)>,
+    /// Absent where samples are independent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    randomisations: Option<Sets>,
+}
+
+/// What the head says of randomisations.
+#[derive(Serialize, Deserialize)]
+struct Sets {
+    length: u64,
+    pictures: Option<Pictures>,
 }
 
 /// Where the checkpoint before the last is kept.
@@ -70,6 +85,10 @@ impl Checkpoint {
             first_non_finite: film
                 .first_non_finite
                 .map(|first| (first.sample, first.y, first.x)),
+            randomisations: film.randomisations.as_ref().map(|all| Sets {
+                length: all.length,
+                pictures: all.pictures.clone(),
+            }),
         };
         let head = serde_json::to_vec(&head).map_err(|fault| Error::Internal(fault.to_string()))?;
         Place::prepare(path)?.write_keeping(&previous(path), |sink| {
@@ -77,7 +96,8 @@ impl Checkpoint {
             sink.write_all(&MAGIC)?;
             sink.write_all(&(head.len() as u64).to_le_bytes())?;
             sink.write_all(&head)?;
-            for plane in [&film.sums, &film.squares] {
+            let open = film.randomisations.iter().map(|all| &all.open);
+            for plane in [&film.sums, &film.squares].into_iter().chain(open) {
                 put(&mut sink, plane.as_flattened(), |value| value.to_le_bytes())?;
             }
             put(&mut sink, &film.counts, |count| count.to_le_bytes())?;
@@ -134,12 +154,29 @@ impl Checkpoint {
         }
         let sides = [x1 - x0, y1 - y0].map(u64::from);
         // Nothing is allocated that the file does not have.
-        let announced = sides[0].saturating_mul(sides[1]).saturating_mul(PIXEL);
+        let pixel = PIXEL + head.randomisations.as_ref().map_or(0, |_| OPEN);
+        let announced = sides[0].saturating_mul(sides[1]).saturating_mul(pixel);
         if announced != length - fixed - head_length {
             return cut();
         }
         let mut film = Film::new(Rect { x0, y0, x1, y1 });
-        for plane in [&mut film.sums, &mut film.squares] {
+        if head
+            .randomisations
+            .as_ref()
+            .is_some_and(|sets| sets.length == 0)
+        {
+            return Ok(Err(
+                "the checkpoint is damaged: its randomisations have no samples".into(),
+            ));
+        }
+        let pixels = film.counts.len();
+        film.randomisations = head.randomisations.as_ref().map(|sets| Randomisations {
+            length: sets.length,
+            open: vec![[0.0; 3]; pixels],
+            pictures: sets.pictures.clone(),
+        });
+        let open = film.randomisations.iter_mut().map(|all| &mut all.open);
+        for plane in [&mut film.sums, &mut film.squares].into_iter().chain(open) {
             get(reader, plane.as_flattened_mut(), f64::from_le_bytes)?;
         }
         get(reader, &mut film.counts, u64::from_le_bytes)?;
@@ -156,7 +193,11 @@ impl Checkpoint {
     fn of(head: Head, mut film: Film) -> std::result::Result<Self, String> {
         let add = |sum: u64, count: &u64| sum.checked_add(*count);
         let paths = film.counts.iter().try_fold(0, add);
-        let planes = [&film.sums, &film.squares];
+        let open = film.randomisations.iter().map(|all| &all.open);
+        let planes: Vec<_> = [&film.sums, &film.squares]
+            .into_iter()
+            .chain(open)
+            .collect();
         let finite =
             |plane: &&Vec<[f64; 3]>| plane.as_flattened().iter().all(|sum| sum.is_finite());
         film.paths = match paths {

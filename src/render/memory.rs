@@ -14,6 +14,8 @@ const FIXED: u64 = 192 << 20;
 const PIXEL: u64 = 56 + 28 + 9;
 /// Of a pixel with layers of first hits: as traced, and as planes.
 const FEATURES: u64 = 32 + 32;
+/// Of a pixel whose samples are cut into randomisations: the sum of the open one.
+const RANDOMISED: u64 = 24;
 /// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.
 const BODY: u64 = 1024;
 /// Results of a block are in the device's memory and in the host's, of several blocks at a time.
@@ -28,7 +30,9 @@ const THREAD: u64 = 80 << 20;
 pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
-    let of_pixel = PIXEL + if task.features { FEATURES } else { 0 };
+    let randomised = task.scene.settings.render.randomisation().is_some();
+    let of_pixel =
+        PIXEL + if task.features { FEATURES } else { 0 } + if randomised { RANDOMISED } else { 0 };
     let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
     FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
 }
