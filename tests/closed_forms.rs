@@ -13,6 +13,7 @@
 //! | `seen` | what is seen directly, and nothing at all: the very bits |
 //! | `view` | Lambert's floor from head-on to grazing |
 //! | `literal` | the paper's weight: its bias by quadrature |
+//! | `sequences` | two of these under each sequence of numbers, and whether its intervals hold the truth |
 //! | `agreement` | no closed form: all unbiased settings agree with one long render |
 //!
 //! `cross` crosses them with the knobs that must not matter. Two forms that others use have no
@@ -40,6 +41,7 @@ mod closed_forms {
     mod panel;
     mod pinhole;
     mod seen;
+    mod sequences;
     mod shade;
     mod view;
 }

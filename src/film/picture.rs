@@ -11,7 +11,8 @@ pub struct Picture {
     pub height: u32,
     /// Mean radiance, linear.
     pub mean: Vec<[f32; 3]>,
-    /// Sample variance of one path's radiance.
+    /// Sample variance of one path's radiance; of randomisations, what their means say it would be. Divided by
+    /// `samples` it is the squared standard error of the mean.
     pub variance: Vec<[f32; 3]>,
     /// Samples taken; whole numbers.
     pub samples: Vec<f32>,

@@ -29,7 +29,6 @@ impl Render {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
 
     #[test]
     fn randomisations_are_powers_of_two_and_as_many_as_asked_for() {
