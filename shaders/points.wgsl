@@ -1,7 +1,7 @@
 // The points kernel: draws by the renderer's own light and scatter samplers, to look at and to test.
 
 // #import maths
-// #import random
+// #import sequence
 // #import scatter
 // #import light
 
@@ -64,7 +64,7 @@ fn main(@builtin(global_invocation_id) lane: vec3<u32>) {
     }
     let low = job.first.x + lane.x;
     let number = vec2<u32>(low, job.first.y + select(0u, 1u, low < job.first.x));
-    let u = random_unit(random_key(job.seed, vec2<u32>(0u), number), 1u, 1u);
+    let u = sequence_unit(sequence_key(job.seed, vec2<u32>(0u), number), 1u, 1u);
     if job.scattering == 1u {
         draws[lane.x] = draw_scatter(u);
     } else {

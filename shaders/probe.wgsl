@@ -3,6 +3,7 @@
 
 // #import maths
 // #import random
+// #import sequence
 // #import camera
 // #import ray
 // #import sphere
@@ -62,6 +63,10 @@ fn probe(in: Input) -> Output {
         case PROBE_RANDOM_UNIT: {
             let key = random_key(bitcast<vec4<u32>>(in.a).xy, bitcast<vec4<u32>>(in.a).zw, bitcast<vec4<u32>>(in.b).xy);
             return Output(random_unit(key, bitcast<vec4<u32>>(in.b).z, bitcast<vec4<u32>>(in.b).w), zero);
+        }
+        case PROBE_SEQUENCE: {
+            let key = sequence_key(bitcast<vec4<u32>>(in.a).xy, bitcast<vec4<u32>>(in.a).zw, bitcast<vec4<u32>>(in.b).xy);
+            return Output(sequence_unit(key, bitcast<vec4<u32>>(in.b).z, bitcast<vec4<u32>>(in.b).w), bitcast<vec4<f32>>(key));
         }
         case PROBE_SINCOS_TURN: {
             return Output(vec4<f32>(sincos_turn(in.a.x), unit_circle(in.a.y)), zero);

@@ -2,7 +2,7 @@
 // lane whose path ends starts the pixel's next sample, so that lanes stay full.
 
 // #import maths
-// #import random
+// #import sequence
 // #import camera
 // #import ray
 // #import scene
@@ -65,11 +65,11 @@ struct Path {
 }
 
 fn start_path(pixel: vec2<u32>, sample: vec2<u32>) -> Path {
-    let key = random_key(job.seed, pixel, sample);
-    let film = sample_film(pixel, random_unit(key, 0u, 0u).xy);
+    let key = sequence_key(job.seed, pixel, sample);
+    let film = sample_film(pixel, sequence_unit(key, 0u, 0u).xy);
     var ray = Ray(vec3<f32>(0.0), camera_direction(job.camera, film), 0u, false);
     if LENS == 1u {
-        ray.origin = sample_lens(job.camera, random_unit(key, 0u, 1u).xy);
+        ray.origin = sample_lens(job.camera, sequence_unit(key, 0u, 1u).xy);
         ray.direction = lens_direction(job.camera, film, ray.origin);
     }
     return Path(key, ray, vec3<f32>(1.0), vec3<f32>(0.0), 0u, 0.0, 0u, true);
@@ -147,7 +147,7 @@ fn direct_light(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight 
         return sum;
     }
     for (var i = 0u; i < LAMP_COUNT; i++) {
-        let u = random_unit(path.key, path.vertex + 1u, i + 1u);
+        let u = sequence_unit(path.key, path.vertex + 1u, i + 1u);
         let one = light_from(lamp_at(i), path, surface, origin, u);
         sum = DirectLight(sum.radiance + one.radiance, sum.rays + one.rays);
     }
@@ -185,7 +185,7 @@ fn visit(path: ptr<function, Path>, surface: Surface, distance: f32) {
         return;
     }
     let material = material_at(surface.material);
-    let u = random_unit((*path).key, (*path).vertex + 1u, 0u);
+    let u = sequence_unit((*path).key, (*path).vertex + 1u, 0u);
     let tested = INTERRUPTION_RULE != INTERRUPTION_RULE_NONE && (*path).vertex >= job.interruption_start;
     let carried = (*path).throughput * material.albedo;
     let probability = select(1.0, survival_probability(material.survival, material.albedo, carried), tested);

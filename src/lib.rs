@@ -55,13 +55,15 @@
 //!
 //! 1. A sample has an address: seed, pixel, sample index. `random.wgsl` hashes it into a key, and the
 //!    key with a dimension (vertex, slot) into four numbers. There is no other state: crops, sample
-//!    ranges and splits draw the same numbers.
+//!    ranges and splits draw the same numbers. Under another `render.sequence` `sequence.wgsl` stands before it: the
+//!    samples of a pixel are cut into randomisations, each a well spread point set that is made random anew,
+//!    and a number is a function of the same address.
 //! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
 //!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`), the
 //!    interruption test (`interruption`), the next direction (`scatter`).
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
-//!    on how the work was split.
+//!    on how the work was split. Variances are those of samples, or of the means of randomisations.
 //! 4. A [`render::Plan`] cuts the work into blocks of about 0.15 s. One thread owns the device and starts each
 //!    block before the one in hand is done; another adds up what comes back and asks whoever watches. A film is
 //!    plain data: a checkpoint is its sums, and [`render::go_on`] takes up any film where its plan left it, on
@@ -73,6 +75,9 @@
 //! - **A light sampler**: a name in [`knobs::LightSampler`], its sample and inverse density in
 //!   `shaders/light.wgsl` and `src/cpu/light.rs`, its chi-square case in the tests. The naga
 //!   tests and the cross of the closed forms fail until all agree.
+//! - **A sequence of numbers**: a name in [`knobs::Sequence`], a branch of `sequence_bits` in
+//!   `shaders/sequence.wgsl` and `src/cpu/sequence.rs`; its strata in `tests/samplers/sequence.rs`. Whatever draws
+//!   a number calls `sequence_unit`, with a slot of its own.
 //! - **A scattering**: a name in [`knobs::Scatter`]; sample, evaluate and density in `scatter` of both
 //!   twins; fields in [`pack::Material`].
 //! - **A metric**: a name in [`compare::Metric`] with its definition; of linear light in

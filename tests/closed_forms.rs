@@ -16,6 +16,7 @@
 //! | `glass` | clear glass under an even sky, which cannot be seen; a slab of glass; rooms with glass |
 //! | `lens` | the circle of confusion |
 //! | `literal` | the paper's weight: its bias by quadrature |
+//! | `sequences` | two of these under each sequence of numbers, and whether its intervals hold the truth |
 //! | `agreement` | no closed form: all unbiased settings agree with one long render |
 //!
 //! `cross` crosses them with the knobs that must not matter. One form that others use has no
@@ -45,6 +46,7 @@ mod closed_forms {
     mod pinhole;
     mod rough;
     mod seen;
+    mod sequences;
     mod shade;
     mod view;
 }

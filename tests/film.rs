@@ -11,6 +11,7 @@ mod film {
     mod hostile;
     mod moments;
     mod output;
+    mod randomisations;
     mod relative;
     mod sample;
 }

@@ -53,11 +53,13 @@ fn compare(reference: &Picture, film: &Film) -> Verdict {
         mean: &reference.mean,
         variance: &reference.variance,
         samples: &reference.samples,
+        run: 1.0,
     };
     let test = Side {
         mean: &mean,
         variance: &variance,
         samples: &samples,
+        run: 1.0,
     };
     let whole = Rect {
         x0: 0,

@@ -24,4 +24,5 @@ mod samplers {
     mod rough;
     mod sampling;
     mod scatter;
+    mod sequence;
 }

@@ -75,9 +75,10 @@ fn room(assignments: &[&str]) -> Scene {
     Scene::parse("room.toml", ROOM, &assignments).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The scenes that are split: without and with a filter, rules and weights of the other kind; baked; and
+/// The scenes that are split: without and with a filter, rules and weights of the other kind; baked; with samples
+/// that are cut into randomisations; and
 /// by a tree, over enough small balls that there is one.
-fn rooms() -> [Scene; 4] {
+fn rooms() -> [Scene; 6] {
     let balls = balls(100, "gloss");
     let crowded = ROOM.to_string() + &balls;
     let by_tree = [Assignment::parse("render.kernel=bvh").unwrap()];
@@ -86,6 +87,8 @@ fn rooms() -> [Scene; 4] {
         room(&[]),
         room(&["render.preset=montelight"]),
         room(&["render.kernel=baked"]),
+        room(&["render.sequence=stratified"]),
+        room(&["render.sequence=blue-noise", "render.kernel=baked"]),
         crowded.unwrap_or_else(|e| panic!("{e}")),
     ]
 }

@@ -15,6 +15,8 @@ mod gloss;
 mod inputs;
 #[path = "twin/reference.rs"]
 mod reference;
+#[path = "twin/sequence.rs"]
+mod sequence;
 
 use cases::Case;
 use lampray::pack::ProbeOutput;

@@ -27,7 +27,7 @@ pub(super) struct Cell {
     spread: [f64; 2],
     /// The weight at the reference, and its first two derivatives by it.
     weight: [f64; 3],
-    /// Of all runs.
+    /// Independent estimates that `variance` is made of, of all runs.
     pub samples: f64,
 }
 
@@ -47,7 +47,7 @@ impl Cell {
             [variances / count, mixed / count]
         } else {
             // Of normal samples; only read where there is no neighbour to tell more.
-            [2.0 * variance * variance / (of.samples - 1.0), 0.0]
+            [2.0 * variance * variance / runs.freedom(of.samples), 0.0]
         };
         let mean = reference.map(|reference| reference.mean(pixel, channel));
         Self {
@@ -58,7 +58,7 @@ impl Cell {
             inverse: of.inverse,
             spread,
             weight: weight.at(mean.unwrap_or(0.0)),
-            samples: of.samples,
+            samples: runs.freedom(of.samples) + 1.0,
         }
     }
 

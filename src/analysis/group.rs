@@ -157,7 +157,7 @@ fn mean(runs: &Runs, pixels: &[usize]) -> Channels {
             let noise = runs.noise(pixel, channel);
             sum += runs.pixels[pixel].mean[channel];
             variance += noise;
-            spread += noise * noise / (runs.pixels[pixel].samples - 1.0);
+            spread += noise * noise / runs.freedom(runs.pixels[pixel].samples);
         }
         let freedom = if spread > 0.0 {
             variance * variance / spread
@@ -187,6 +187,7 @@ struct Planes {
     mean: Vec<[f32; 3]>,
     variance: Vec<[f32; 3]>,
     samples: Vec<f32>,
+    run: f64,
 }
 
 impl Planes {
@@ -203,6 +204,7 @@ impl Planes {
                 .collect(),
             variance: (0..runs.pixels.len()).map(variance).collect(),
             samples: pixels.map(|pixel| pixel.samples as f32).collect(),
+            run: runs.run(),
         }
     }
 
@@ -211,6 +213,7 @@ impl Planes {
             mean: part(side.mean, width, rect),
             variance: part(side.variance, width, rect),
             samples: part(side.samples, width, rect),
+            run: side.run,
         }
     }
 
@@ -219,6 +222,7 @@ impl Planes {
             mean: &self.mean,
             variance: &self.variance,
             samples: &self.samples,
+            run: self.run,
         }
     }
 

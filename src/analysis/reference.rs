@@ -2,7 +2,7 @@
 
 use crate::compare::verdict::Side;
 use crate::error::{Error, Result};
-use crate::film::Picture;
+use crate::film::{Picture, Record};
 
 #[derive(Clone, Debug)]
 pub struct Reference {
@@ -43,6 +43,7 @@ impl Reference {
             mean: &self.picture.mean,
             variance: &self.picture.variance,
             samples: &self.picture.samples,
+            run: run(&self.picture.record),
         }
     }
 
@@ -54,6 +55,11 @@ impl Reference {
     pub(super) fn noise(&self, pixel: usize, channel: usize) -> f64 {
         f64::from(self.picture.variance[pixel][channel]) / f64::from(self.picture.samples[pixel])
     }
+}
+
+/// Samples behind one independent estimate of a picture's variances: 1, or the length of a randomisation.
+pub(super) fn run(record: &Record) -> f64 {
+    record.randomisation.map_or(1.0, |length| length as f64)
 }
 
 /// What every picture here must be: whole, finite, and with two samples a pixel or more.
@@ -73,6 +79,10 @@ pub(super) fn check(picture: &Picture, name: &str) -> Result<()> {
         .any(|n| !(n.is_finite() && *n >= 2.0))
     {
         return fail("its noise is not known: every pixel needs two samples or more");
+    }
+    let least = 2.0 * run(&picture.record);
+    if picture.samples.iter().any(|n| f64::from(*n) < least) {
+        return fail("its noise is not known: every pixel needs two randomisations or more");
     }
     let planes = [&picture.mean, &picture.variance];
     let mut values = planes.into_iter().flat_map(|plane| plane.as_flattened());

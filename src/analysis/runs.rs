@@ -1,6 +1,6 @@
 //! A group's pictures, taken in one after another.
 
-use super::reference::check;
+use super::reference::{check, run};
 use crate::compare::kinship;
 use crate::error::{Error, Result};
 use crate::film::{Picture, Record};
@@ -122,6 +122,19 @@ impl Runs {
     /// Samples a pixel of a run, mean over runs and pixels.
     pub fn samples(&self) -> f64 {
         self.samples / self.len().max(1) as f64
+    }
+
+    /// Degrees of freedom of the variance of so many samples of all runs.
+    pub(super) fn freedom(&self, samples: f64) -> f64 {
+        match self.records.first().map_or(1.0, run) {
+            1.0 => samples - 1.0,
+            length => samples / length - self.len() as f64,
+        }
+    }
+
+    /// Samples behind each independent estimate of the variance of a pixel over all runs.
+    pub(super) fn run(&self) -> f64 {
+        self.samples / (self.freedom(self.samples) + 1.0)
     }
 
     /// Variance of the mean of a pixel over all runs, from the stored variances.

@@ -76,6 +76,7 @@ impl Run<'_> {
             adaptive: self.rules.target_error.is_some() && !self.rules.even,
             ..Task::new(self.scene)
         };
+        task.refuse_cut()?;
         render::refuse_too_large(&task)?;
         let (targets, denoised) = self.targets()?;
         let mut device = self.open(output)?;

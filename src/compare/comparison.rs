@@ -246,6 +246,14 @@ fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, NoVe
             "{name} has variances that are not numbers from 0 up"
         )));
     }
+    let record = image.record.as_ref();
+    let length = record.and_then(|record| record.randomisation);
+    let run = length.map_or(1.0, |length| length as f64);
+    if let Some(length) = length.filter(|_| !samples.iter().all(|n| f64::from(*n) >= 2.0 * run)) {
+        return Err(NoVerdict::TooFew(format!(
+            "{name} has pixels with fewer than 2 randomisations of {length} samples, which have no variance"
+        )));
+    }
     if !samples.iter().all(|n| *n >= 2.0) {
         return Err(NoVerdict::TooFew(format!(
             "{name} has pixels with fewer than 2 samples, which have no variance"
@@ -255,6 +263,7 @@ fn side<'a>(image: &'a Raster, name: &str) -> std::result::Result<Side<'a>, NoVe
         mean,
         variance,
         samples,
+        run,
     })
 }
 

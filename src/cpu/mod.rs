@@ -20,6 +20,7 @@ pub mod ray;
 pub mod rough;
 pub mod scatter;
 pub mod scene;
+pub mod sequence;
 pub mod sphere;
 pub mod trace;
 

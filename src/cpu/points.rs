@@ -2,8 +2,8 @@
 
 use super::light::{lamp_cone, sample_light, sample_surface};
 use super::maths::{Basis, basis_around, greater};
-use super::random::{random_key, random_unit};
 use super::scatter::sample_scatter;
+use super::sequence::{sequence_key, sequence_unit};
 use crate::knobs::LightSampler;
 use crate::pack::{Draw, PointsJob, Strategy};
 use glam::{Vec2, Vec3, Vec4};
@@ -67,7 +67,8 @@ fn draw_scatter(strategy: &Strategy, job: &PointsJob, u: Vec4) -> Draw {
 pub fn draw(strategy: &Strategy, job: &PointsJob, lane: u32) -> Draw {
     let (low, carry) = job.first[0].overflowing_add(lane);
     let number = [low, job.first[1] + u32::from(carry)];
-    let u = Vec4::from(random_unit(random_key(job.seed, [0, 0], number), 1, 1));
+    let key = sequence_key(strategy, job.seed, [0, 0], number);
+    let u = Vec4::from(sequence_unit(strategy, key, 1, 1));
     if job.scattering == 1 {
         draw_scatter(strategy, job, u)
     } else {

@@ -4,10 +4,10 @@ use super::camera::{camera_direction, lens_direction, sample_film, sample_lens};
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
 use super::maths::{Basis, greater, largest};
-use super::random::{random_key, random_unit};
 use super::ray::{Ray, offset_origin};
 use super::scatter::*;
 use super::scene::{Surface, Traversal, surface_at};
+use super::sequence::{sequence_key, sequence_unit};
 use crate::knobs::*;
 use crate::pack::{Job, LastRay, Packed, RUN_LENGTH, Tally};
 use glam::{Vec2, Vec3, Vec4};
@@ -53,17 +53,18 @@ impl<'a, T: Traversal> Tracer<'a, T> {
 
     #[inline(always)]
     fn start_path(&self, pixel: [u32; 2], sample: [u32; 2]) -> Path {
-        let key = random_key(self.job.seed, pixel, sample);
-        let u = random_unit(key, 0, 0);
-        let film = sample_film(self.scene.strategy.filter, pixel, Vec2::new(u[0], u[1]));
+        let strategy = &self.scene.strategy;
+        let key = sequence_key(strategy, self.job.seed, pixel, sample);
+        let u = sequence_unit(strategy, key, 0, 0);
+        let film = sample_film(strategy.filter, pixel, Vec2::new(u[0], u[1]));
         let mut ray = Ray {
             origin: Vec3::ZERO,
             direction: camera_direction(&self.job.camera, film),
             source: 0,
             inside: false,
         };
-        if self.scene.strategy.lens {
-            let u = random_unit(key, 0, 1);
+        if strategy.lens {
+            let u = sequence_unit(strategy, key, 0, 1);
             ray.origin = sample_lens(&self.job.camera, Vec2::new(u[0], u[1]));
             ray.direction = lens_direction(&self.job.camera, film, ray.origin);
         }
@@ -144,7 +145,8 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
         // Here and below whole numbers wrap, as WGSL's do: asking whether they would costs 3 % of the time.
         let slot = (index as u32).wrapping_add(1);
-        let u = Vec4::from(random_unit(path.key, path.vertex.wrapping_add(1), slot));
+        let vertex = path.vertex.wrapping_add(1);
+        let u = Vec4::from(sequence_unit(strategy, path.key, vertex, slot));
         let light = sample_light(strategy, lamp, self.pole, origin, inside, u);
         let density = scatter_density(
             strategy,
@@ -249,7 +251,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         }
         let material = &self.scene.materials[surface.material as usize];
         let albedo = Vec3::from(material.albedo);
-        let u = random_unit(path.key, path.vertex.wrapping_add(1), 0);
+        let u = sequence_unit(strategy, path.key, path.vertex.wrapping_add(1), 0);
         let tested = strategy.interruption_rule != InterruptionRule::None
             && path.vertex >= self.job.interruption_start;
         let (mut survives, mut weight) = (true, 1.0);

@@ -6,11 +6,15 @@
 //! film = sums, squares: 3 x f64 a pixel | counts: u64 a pixel
 //! ```
 //!
+//! Where samples are cut into randomisations, the sums of the open ones stand behind the squares: 3 x f64 a pixel.
 //! Where sampling is adaptive, the film of the scouts follows that of the picture, and then, u64 a tile, the
-//! scouts that were asked for and, where that is decided, the samples that the picture is to have. Numbers are little-endian; the hash is over everything before it.
+//! scouts that were asked for and, where that is decided, the samples that the picture is to have.
+//!
+//! Numbers are little-endian; the hash is over everything before it.
 
 use super::bytes::data;
 use super::moments::{Film, NonFinite};
+use super::randomisations::{Pictures, Randomisations};
 use super::record::Record;
 use super::same::difference;
 use super::scouts::{Scouts, Tiles};
@@ -29,6 +33,8 @@ const MAGIC: [u8; 8] = *b"lampray1";
 const HEAD_LIMIT: u64 = 16 << 20;
 /// Of a pixel: two sums of three channels and a count.
 const PIXEL: u64 = 56;
+/// Of a pixel that has an open randomisation: three channels more.
+const OPEN: u64 = 24;
 const HASH: u64 = 32;
 /// Numbers that are read or written at a time.
 const CHUNK: usize = 1 << 13;
@@ -54,6 +60,9 @@ struct Head {
     first_non_finite: Option<(u64, u32, u32)>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     scouts: Option<ScoutsHead>,
+    /// Absent where samples are independent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    randomisations: Option<Sets>,
 }
 
 /// What the planes of scouts do not say.
@@ -107,6 +116,13 @@ fn non_finite((sample, y, x): (u64, u32, u32)) -> NonFinite {
     NonFinite { sample, y, x }
 }
 
+/// What the head says of randomisations.
+#[derive(Serialize, Deserialize)]
+struct Sets {
+    length: u64,
+    pictures: Option<Pictures>,
+}
+
 /// Where the checkpoint before the last is kept.
 pub fn previous(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
@@ -133,6 +149,10 @@ impl Checkpoint {
             region: [rect.x0, rect.y0, rect.x1, rect.y1],
             first_non_finite: film.first_non_finite.map(place),
             scouts: scouts.map(ScoutsHead::of),
+            randomisations: film.randomisations.as_ref().map(|all| Sets {
+                length: all.length,
+                pictures: all.pictures.clone(),
+            }),
         };
         let head = serde_json::to_vec(&head).map_err(|fault| Error::Internal(fault.to_string()))?;
         Place::prepare(path)?.write_keeping(&previous(path), |sink| {
@@ -204,13 +224,25 @@ impl Checkpoint {
             .scouts
             .as_ref()
             .map_or(0, |scouts| scouts.announced(region));
+        let pixel = PIXEL + head.randomisations.as_ref().map_or(0, |_| OPEN);
         let announced = (region.area() as u64)
-            .saturating_mul(PIXEL)
+            .saturating_mul(pixel)
             .saturating_add(of_scouts);
         if announced != length - fixed - head_length {
             return cut();
         }
         let mut film = Film::new(region);
+        if let Some(sets) = &head.randomisations {
+            if sets.length == 0 {
+                let reason = "the checkpoint is damaged: its randomisations have no samples";
+                return Ok(Err(reason.into()));
+            }
+            film.randomisations = Some(Randomisations {
+                length: sets.length,
+                open: vec![[0.0; 3]; film.counts.len()],
+                pictures: sets.pictures.clone(),
+            });
+        }
         get_film(reader, &mut film)?;
         let scouts = match &head.scouts {
             Some(scouts) => Some(scouts.read(reader, region)?),
@@ -338,8 +370,7 @@ impl Checkpoint {
 
 /// How many paths a film's sums are of, if they can be sums.
 fn paths(film: &Film) -> Option<u64> {
-    let planes = [&film.sums, &film.squares];
-    let mut sums = planes.into_iter().flat_map(|plane| plane.as_flattened());
+    let mut sums = planes(film).flat_map(|plane| plane.as_flattened());
     let finite = sums.all(|sum| sum.is_finite());
     let add = |sum: u64, count: &u64| sum.checked_add(*count);
     film.counts.iter().try_fold(0, add).filter(|_| finite)
@@ -417,15 +448,22 @@ fn get<T>(
     Ok(())
 }
 
+/// What a film adds up in, but for its counts.
+fn planes(film: &Film) -> impl Iterator<Item = &Vec<[f64; 3]>> {
+    let open = film.randomisations.iter().map(|all| &all.open);
+    [&film.sums, &film.squares].into_iter().chain(open)
+}
+
 fn put_film(sink: &mut impl Write, film: &Film) -> io::Result<()> {
-    for plane in [&film.sums, &film.squares] {
+    for plane in planes(film) {
         put(sink, plane.as_flattened(), |value| value.to_le_bytes())?;
     }
     put(sink, &film.counts, |count| count.to_le_bytes())
 }
 
 fn get_film(reader: &mut impl Read, film: &mut Film) -> io::Result<()> {
-    for plane in [&mut film.sums, &mut film.squares] {
+    let open = film.randomisations.iter_mut().map(|all| &mut all.open);
+    for plane in [&mut film.sums, &mut film.squares].into_iter().chain(open) {
         get(reader, plane.as_flattened_mut(), f64::from_le_bytes)?;
     }
     get(reader, &mut film.counts, u64::from_le_bytes)

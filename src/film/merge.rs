@@ -1,7 +1,8 @@
 //! Adds pictures of disjoint samples of one render.
 
 use super::moments::{PictureMean, narrow};
-use super::parts::{Part, SAMPLES, check_disjoint, compare};
+use super::parts::{Part, SAMPLES, check_disjoint, check_randomisations, compare};
+use super::randomisations::count as estimates;
 use super::{AdaptiveRecord, Picture, Record};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
@@ -24,6 +25,7 @@ pub fn merge<P: AsRef<Path>>(paths: &[P], allow_mixed: bool) -> Result<Picture> 
         compare(first, other, allow_mixed)?;
     }
     check_disjoint(&parts)?;
+    check_randomisations(&parts)?;
 
     // One picture at a time: only the sums and one more have to be in memory.
     let mut sum = Sum::new(first.read()?);
@@ -37,17 +39,21 @@ pub fn merge<P: AsRef<Path>>(paths: &[P], allow_mixed: bool) -> Result<Picture> 
 #[derive(Clone, Copy)]
 struct Moments {
     count: u64,
+    /// Independent estimates that the squares are made of: samples, or randomisations.
+    estimates: u64,
     mean: [f64; 3],
-    /// Sum of the squared distances from the mean.
+    /// Sum of the squared distances from the mean; of randomisations, of their means', times their samples.
     squares: [f64; 3],
 }
 
 impl Moments {
     fn of(picture: &Picture, pixel: usize) -> Moments {
         let count = picture.count(pixel);
-        let freedom = count.saturating_sub(1) as f64;
+        let estimates = estimates(count, picture.record.randomisation);
+        let freedom = estimates.saturating_sub(1) as f64;
         Moments {
             count,
+            estimates,
             mean: picture.mean[pixel].map(f64::from),
             squares: picture.variance[pixel].map(|variance| f64::from(variance) * freedom),
         }
@@ -66,12 +72,13 @@ impl Moments {
             self.squares[channel] += other.squares[channel] + distance * distance * n * m / (n + m);
         }
         self.count = count;
+        self.estimates = self.estimates.saturating_add(other.estimates);
     }
 
     fn variance(&self) -> [f64; 3] {
-        match self.count {
+        match self.estimates {
             0 | 1 => [0.0; 3],
-            count => self.squares.map(|squares| squares / (count - 1) as f64),
+            estimates => self.squares.map(|squares| squares / (estimates - 1) as f64),
         }
     }
 }
@@ -143,6 +150,10 @@ impl Sum {
             mean.add(moments.mean, moments.variance(), moments.count);
         }
         let record = &mut picture.record;
+        let means = &record.randomisation_means;
+        if let Some(length) = record.randomisation.filter(|_| !means.is_empty()) {
+            mean.told_by(means, length, record.samples);
+        }
         record.mean = mean.mean();
         record.standard_error = mean.standard_error();
         record.devices = if devices.len() > 1 {
@@ -151,7 +162,9 @@ impl Sum {
             Vec::new()
         };
         record.outputs = Vec::new();
-        if let Some(samples) = record.knobs.get_mut(SAMPLES) {
+        let planned = record.randomisation.is_none();
+        let samples = record.knobs.get_mut(SAMPLES).filter(|_| planned);
+        if let Some(samples) = samples {
             *samples = record.samples.into();
         }
         set_ranges(record, ranges);
@@ -172,6 +185,7 @@ fn add_record(sum: &mut Record, other: &Record) {
     sum.complete &= other.complete;
     sum.stopped = sum.stopped.or(other.stopped);
     sum.biased |= other.biased;
+    sum.randomisation_means.extend(&other.randomisation_means);
 }
 
 /// What is said of scouts where a part had some. They are no part's samples, so that counts which follow from them

@@ -1,5 +1,6 @@
 //! The first two moments of every pixel, summed in f64.
 
+use super::randomisations::{Pictures, Randomisations, Sets, add_pictures, variance_of_mean};
 use super::{Features, Picture, Record};
 use crate::device::{Block, run_ranges};
 use crate::pack::{Rect, Tally};
@@ -17,7 +18,7 @@ pub struct Film {
     pub region: Rect,
     /// Sum of radiance.
     pub sums: Vec<[f64; 3]>,
-    /// Sum of squared radiance.
+    /// Sum of squared radiance; of randomisations that are closed, of their means' squares times their samples.
     pub squares: Vec<[f64; 3]>,
     /// Samples taken.
     pub counts: Vec<u64>,
@@ -28,6 +29,8 @@ pub struct Film {
     /// Samples whose radiance was not finite; they count as black.
     pub non_finite: u64,
     pub first_non_finite: Option<NonFinite>,
+    /// Present where samples are not independent of each other.
+    pub randomisations: Option<Randomisations>,
 }
 
 /// Where a sample was not finite. The first of several is that of the smallest index, then row,
@@ -54,6 +57,7 @@ impl Film {
             rays: 0,
             non_finite: 0,
             first_non_finite: None,
+            randomisations: None,
         }
     }
 
@@ -71,10 +75,11 @@ impl Film {
             sums: &mut self.sums[pixel..],
             squares: &mut self.squares[pixel..],
             counts: &mut self.counts[pixel..],
+            sets: self.randomisations.as_mut().map(|all| all.row(pixel..)),
         };
         let mut totals = Totals::default();
         totals.add(at, first_sample, samples, tally);
-        row.add(0, samples, tally);
+        totals.close(row.add(0, samples, tally));
         self.count(totals);
     }
 
@@ -91,13 +96,17 @@ impl Film {
             for ((first, samples), run) in runs.zip(tallies.chunks(rect.area())) {
                 let of_row = run.iter().skip(y * wide).take(wide);
                 for (x, tally) in of_row.enumerate() {
-                    row.add(column + x, samples, tally);
+                    totals.close(row.add(column + x, samples, tally));
                     let at = [rect.x0 + x as u32, rect.y0 + y as u32];
                     totals.add(at, first, samples, tally);
                 }
             }
             totals
         };
+        let mut sets = self
+            .randomisations
+            .as_mut()
+            .map(|all| all.rows(pixels.clone(), width));
         let rows = self.sums[pixels.clone()]
             .chunks_mut(width)
             .zip(self.squares[pixels.clone()].chunks_mut(width))
@@ -106,6 +115,7 @@ impl Film {
                 sums,
                 squares,
                 counts,
+                sets: sets.as_mut().and_then(Iterator::next),
             });
         let totals = if tallies.len() < PARALLEL {
             rows.enumerate()
@@ -117,6 +127,7 @@ impl Film {
                 .map(add)
                 .reduce(Totals::default, Totals::with)
         };
+        drop(sets);
         self.count(totals);
     }
 
@@ -125,6 +136,13 @@ impl Film {
         self.rays = self.rays.saturating_add(more.rays);
         self.non_finite = self.non_finite.saturating_add(more.non_finite);
         self.first_non_finite = earlier(self.first_non_finite, more.first_non_finite);
+        let pictures = self
+            .randomisations
+            .as_mut()
+            .and_then(|all| all.pictures.as_mut());
+        if let Some(pictures) = pictures {
+            add_pictures(pictures, &more.closed);
+        }
     }
 
     /// Mean radiance of a pixel; black before its first sample.
@@ -135,17 +153,23 @@ impl Film {
         }
     }
 
-    /// Sample variance of one path's radiance, (S2 - S^2 / n) / (n - 1); 0 below two samples.
+    /// Sample variance of one path's radiance, (S2 - S^2 / n) / (n - 1); 0 below two samples. Of randomisations,
+    /// what their means say it would be: n times the variance of the pixel's mean; 0 below two of them.
     pub fn variance(&self, pixel: usize) -> [f64; 3] {
-        let count = self.counts[pixel];
-        if count < 2 {
+        let estimates = self.estimates(pixel);
+        if estimates < 2 {
             return [0.0; 3];
         }
-        let n = count as f64;
+        let n = self.counts[pixel] as f64;
+        let open = self
+            .randomisations
+            .as_ref()
+            .map(|all| all.open_square(pixel, self.counts[pixel]));
         std::array::from_fn(|channel| {
             let (sum, squares) = (self.sums[pixel][channel], self.squares[pixel][channel]);
+            let squares = squares + open.map_or(0.0, |open| open[channel]);
             // Equal samples leave a rounding error here, which may be below zero.
-            ((squares - sum * sum / n) / (n - 1.0)).max(0.0)
+            ((squares - sum * sum / n) / (estimates as f64 - 1.0)).max(0.0)
         })
     }
 
@@ -154,7 +178,8 @@ impl Film {
         self.over_pixels().mean()
     }
 
-    /// Standard error of [`Film::picture_mean`], taking the pixels as independent.
+    /// Standard error of [`Film::picture_mean`], taking the pixels as independent; where they share point sets, by the
+    /// spread of the picture's mean over the randomisations.
     pub fn standard_error(&self) -> [f64; 3] {
         self.over_pixels().standard_error()
     }
@@ -163,6 +188,9 @@ impl Film {
         let mut mean = PictureMean::default();
         for (pixel, &count) in self.counts.iter().enumerate() {
             mean.add(self.mean(pixel), self.variance(pixel), count);
+        }
+        if let (Some((means, samples)), Some(all)) = (self.shared_means(), &self.randomisations) {
+            mean.told_by(&means, all.length, samples);
         }
         mean
     }
@@ -177,6 +205,9 @@ impl Film {
         let mean = self.over_pixels();
         record.mean = mean.mean();
         record.standard_error = mean.standard_error();
+        record.error_estimate = self.error_estimate();
+        record.randomisation = self.randomisations.as_ref().map(|all| all.length);
+        record.randomisation_means = self.shared_means().map_or(Vec::new(), |(means, _)| means);
     }
 
     /// The picture as it stands, with the record completed by [`Film::describe`].
@@ -211,10 +242,23 @@ struct Row<'a> {
     sums: &'a mut [[f64; 3]],
     squares: &'a mut [[f64; 3]],
     counts: &'a mut [u64],
+    sets: Option<Sets<'a>>,
 }
 
 impl Row<'_> {
-    fn add(&mut self, pixel: usize, samples: u32, tally: &Tally) {
+    /// Adds a run to a pixel; where that closes a randomisation whose pixels' sums are kept, number and sum of it.
+    fn add(&mut self, pixel: usize, samples: u32, tally: &Tally) -> Option<(u64, [f64; 3])> {
+        if let Some(sets) = &mut self.sets {
+            let [sums, squares] = [&mut self.sums[pixel], &mut self.squares[pixel]];
+            return sets.add(
+                pixel,
+                samples,
+                tally,
+                sums,
+                squares,
+                &mut self.counts[pixel],
+            );
+        }
         let n = f64::from(samples);
         for channel in 0..3 {
             let mean = f64::from(tally.mean[channel]);
@@ -222,19 +266,32 @@ impl Row<'_> {
             self.squares[pixel][channel] += f64::from(tally.squares[channel]) + n * mean * mean;
         }
         self.counts[pixel] += u64::from(samples);
+        None
     }
 }
 
 /// What a film counts over all pixels, of some runs.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Default)]
 struct Totals {
     paths: u64,
     rays: u64,
     non_finite: u64,
     first_non_finite: Option<NonFinite>,
+    /// Sums of randomisations that were closed.
+    closed: Pictures,
 }
 
 impl Totals {
+    fn close(&mut self, closed: Option<(u64, [f64; 3])>) {
+        let Some((number, sums)) = closed else {
+            return;
+        };
+        let picture = self.closed.entry(number).or_default();
+        for (exact, sum) in picture.iter_mut().zip(sums) {
+            exact.add(sum);
+        }
+    }
+
     /// Counts one run of the pixel `at` column and row of the whole image.
     fn add(&mut self, at: [u32; 2], first_sample: u64, samples: u32, tally: &Tally) {
         self.paths += u64::from(samples);
@@ -250,8 +307,10 @@ impl Totals {
         }
     }
 
-    fn with(self, other: Self) -> Self {
+    fn with(mut self, other: Self) -> Self {
+        add_pictures(&mut self.closed, &other.closed);
         Self {
+            closed: self.closed,
             paths: self.paths + other.paths,
             rays: self.rays + other.rays,
             non_finite: self.non_finite + other.non_finite,
@@ -271,6 +330,8 @@ pub(super) struct PictureMean {
     /// Sum of the variances of the pixels' means.
     variances: [f64; 3],
     pixels: u64,
+    /// Variance of the mean of the picture, where the pixels' own do not tell it.
+    told: Option<[f64; 3]>,
 }
 
 impl PictureMean {
@@ -287,7 +348,15 @@ impl PictureMean {
         self.sums.map(|sum| sum / self.pixels.max(1) as f64)
     }
 
+    /// The pixels share point sets: these are the picture's means by randomisation.
+    pub(super) fn told_by(&mut self, means: &[[f64; 3]], length: u64, samples: u64) {
+        self.told = Some(variance_of_mean(means, length, samples));
+    }
+
     pub(super) fn standard_error(&self) -> [f64; 3] {
+        if let Some(told) = self.told {
+            return told.map(f64::sqrt);
+        }
         self.variances
             .map(|sum| sum.sqrt() / self.pixels.max(1) as f64)
     }

@@ -64,7 +64,9 @@ impl Part {
 
 /// Refuses two pictures that are not of one render.
 pub(super) fn compare(first: &Part, other: &Part, allow_mixed: bool) -> Result<()> {
-    if let Some(found) = difference(&first.record, &other.record, Some(SAMPLES)) {
+    // How many samples were planned says how long a randomisation is.
+    let ignored = first.record.randomisation.is_none().then_some(SAMPLES);
+    if let Some(found) = difference(&first.record, &other.record, ignored) {
         let first = first.path.display();
         return other.fail(format!(
             "{} is {}, but {} in {first}: not the same render",
@@ -98,6 +100,38 @@ fn describe(device: &DeviceInfo) -> String {
     let [name, backend, driver] =
         [&device.name, &device.backend, &device.driver].map(|word| short(word));
     format!("{name} ({backend} {driver})")
+}
+
+/// Refuses pictures whose randomisations are not whole: where only some pixels have a part of one, or where more than
+/// the last ends inside one, nobody can tell how many there are.
+pub(super) fn check_randomisations(parts: &[Part]) -> Result<()> {
+    let ends = parts
+        .iter()
+        .flat_map(|part| part.record.ranges())
+        .map(|[_, end]| end);
+    let last = ends.max().unwrap_or(0);
+    for part in parts {
+        let record = &part.record;
+        let Some(length) = record.randomisation else {
+            continue;
+        };
+        let ranges = record.ranges();
+        let taken: u64 = ranges
+            .iter()
+            .map(|[first, end]| end.saturating_sub(*first))
+            .sum();
+        if length == 0 || taken != record.samples {
+            return part.fail("was stopped when some of its pixels had more samples than others, inside a randomisation: render its range to the end".into());
+        }
+        let cut =
+            |&[first, end]: &[u64; 2]| first % length != 0 || (end % length != 0 && end != last);
+        if let Some([first, end]) = ranges.into_iter().find(cut) {
+            return part.fail(format!(
+                "samples {first}..{end} end inside a randomisation of {length} samples: of a merged picture only the last may"
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses two pictures that share a sample.

@@ -11,8 +11,9 @@ pub struct Picture {
     pub height: u32,
     /// Mean radiance, linear.
     pub mean: Vec<[f32; 3]>,
-    /// Sample variance of one path's radiance; this and `samples` are empty where the record says that the picture was
-    /// denoised.
+    /// Sample variance of one path's radiance; of randomisations, what their means say it would be. Divided by
+    /// `samples` it is the squared standard error of the mean. This and `samples` are empty where the record says that
+    /// the picture was denoised.
     pub variance: Vec<[f32; 3]>,
     /// Samples taken; whole numbers.
     pub samples: Vec<f32>,

@@ -53,7 +53,7 @@ impl Transfer {
 /// How sure each pixel is.
 #[derive(Clone, Debug)]
 pub struct Noise {
-    /// Sample variance of one path's radiance.
+    /// Sample variance of one path's radiance: over `samples` the squared standard error of the mean.
     pub variance: Vec<[f32; 3]>,
     /// Samples taken, whole numbers.
     pub samples: Vec<f32>,

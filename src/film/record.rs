@@ -2,6 +2,7 @@
 
 use super::Denoised;
 use super::scouts::AdaptiveRecord;
+use super::randomisations::ErrorEstimate;
 use crate::device::DeviceInfo;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -66,6 +67,16 @@ pub struct Record {
     pub mean: [f64; 3],
     /// Standard error of `mean`.
     pub standard_error: [f64; 3],
+    /// What standard errors and variances are made of.
+    #[serde(default)]
+    pub error_estimate: ErrorEstimate,
+    /// Samples of one randomisation; absent where samples are independent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub randomisation: Option<u64>,
+    /// Where pixels share point sets: the mean of the picture by each randomisation that all pixels have, the last
+    /// perhaps of fewer samples; `standard_error` is their spread. Absent otherwise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub randomisation_means: Vec<[f64; 3]>,
     /// Files that were written.
     pub outputs: Vec<String>,
 }

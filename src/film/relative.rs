@@ -41,9 +41,9 @@ fn ratio(error: f64, mean: f64) -> f64 {
 
 impl Film {
     /// The error as the samples so far estimate it, by the variance between them. Infinite before every pixel
-    /// has two samples: nothing is known then.
+    /// has two samples, or two randomisations where those tell it: nothing is known then.
     pub fn relative_error(&self) -> RelativeError {
-        if self.counts.iter().any(|count| *count < 2) {
+        if (0..self.counts.len()).any(|pixel| self.estimates(pixel) < 2) {
             return RelativeError {
                 picture: f64::INFINITY,
                 pixels: f64::INFINITY,

@@ -194,6 +194,20 @@ choice! {
 }
 
 choice! {
+    /// How the numbers of a pixel's samples fill their space.
+    Sequence, "SEQUENCE" {
+        /// Each sample by itself.
+        Independent = "independent",
+        /// One in each cell of a grid, pair by pair of dimensions: correlated multi-jittered (Kensler 2013).
+        Stratified = "stratified",
+        /// Sobol's first two dimensions with Owen's scrambling, anew for each pair of dimensions (Burley 2020).
+        Sobol = "sobol",
+        /// The same points, dealt to neighbouring pixels so that their errors cancel (Ahmed and Wonka 2020).
+        BlueNoise = "blue-noise",
+    }
+}
+
+choice! {
     /// How rays find bodies; every way finds the same.
     RenderKernel, "RENDER_KERNEL" {
         /// `bvh` for many bodies; for few `baked` where the work pays for compiling it, else `general`.

@@ -4,6 +4,7 @@ mod choice;
 mod find;
 mod kind;
 mod pages;
+pub mod randomisation;
 mod read;
 mod schema;
 mod settings;

@@ -40,6 +40,9 @@ pub struct Render {
     /// Largest radiance a sample may have in a channel.
     pub clamp: Option<f64>,
     pub kernel: RenderKernel,
+    pub sequence: Sequence,
+    /// The least number of point sets that the samples are cut into where they are not independent.
+    pub randomisations: u64,
 }
 
 /// `light.*`.
@@ -107,6 +110,8 @@ impl Settings {
                 max_bounces: whole("render.max_bounces"),
                 clamp: value("render.clamp").optional(),
                 kernel: choice(&value("render.kernel")),
+                sequence: choice(&value("render.sequence")),
+                randomisations: value("render.randomisations").integer(),
             },
             light: Light {
                 sampler: choice(&value("light.sampler")),

@@ -138,6 +138,8 @@ pub static KNOBS: &[Knob] = &[
     knob("render.max_bounces", integer(0, 1_000_000), "reflections", whole(8), "reflections a path may make: 0 is emission alone, 1 adds direct light"),
     knob("render.clamp", OptionalNumber(Range::POSITIVE), "radiance",
         Presets([Value::Number(1.0), Value::Off, Value::Off, Value::Off]), "the largest radiance that a sample may have in a channel"),
+    knob("render.sequence", Name(Sequence::NAMES), "", Default(text("independent")), "how the numbers of a pixel's samples fill their space: each by itself, one in each cell of a grid, as Sobol's sequence scrambled, or as that with errors that cancel among neighbouring pixels"),
+    knob("render.randomisations", integer(2, 65536), "", whole(8), "but for independent samples: the point sets, each made random anew, that the samples of a pixel are cut into, at least; their length is a power of two, 16 or more, and their spread tells the standard error"),
     knob("render.kernel", Name(RenderKernel::NAMES), "", Default(text("auto")), "how rays find bodies, which changes no picture: one after the other (general), the same in code compiled for the scene (baked), by a tree (bvh), or as number and work say"),
     knob("render.preset", Name(Preset::NAMES), "", Default(text("reference")), "the set of sampling knobs to start from"),
 

@@ -7,6 +7,9 @@ use crate::scene::Scene;
 /// where the sample index is a multiple of it, so that sums never depend on how work was split.
 pub const RUN_LENGTH: u32 = 16;
 
+// A randomisation is whole tallies.
+const _: () = assert!(randomisation::SHORTEST == RUN_LENGTH as u64);
+
 choice! {
     /// When the ray after the last reflection, which can only find emission, is traced.
     LastRay, "LAST_RAY" {
@@ -36,6 +39,9 @@ pub struct Strategy {
     pub rough_surfaces: bool,
     pub glass_surfaces: bool,
     pub lens: bool,
+    pub sequence: Sequence,
+    /// Samples of one randomisation, as a power of two; 4 where samples are independent and have none.
+    pub randomisation_bits: u32,
     pub sphere_count: u32,
     pub box_count: u32,
     pub rotated_box_count: u32,
@@ -67,6 +73,11 @@ impl Strategy {
             rough_surfaces: some(Scatter::Rough),
             glass_surfaces: some(Scatter::Glass),
             lens: scene.camera.aperture > 0.0,
+            sequence: settings.render.sequence,
+            randomisation_bits: settings
+                .render
+                .randomisation()
+                .map_or(RUN_LENGTH.ilog2(), u64::ilog2),
             sphere_count: spheres,
             box_count: boxes,
             rotated_box_count: rotated,
@@ -78,7 +89,7 @@ impl Strategy {
     }
 
     /// Names and values of all override constants of all kernels.
-    pub fn overrides(&self) -> [(&'static str, u32); 22] {
+    pub fn overrides(&self) -> [(&'static str, u32); 24] {
         [
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
@@ -95,6 +106,8 @@ impl Strategy {
             ("ROUGH_SURFACES", u32::from(self.rough_surfaces)),
             ("GLASS_SURFACES", u32::from(self.glass_surfaces)),
             ("LENS", u32::from(self.lens)),
+            ("SEQUENCE", self.sequence.index()),
+            ("RANDOMISATION_BITS", self.randomisation_bits),
             ("SPHERE_COUNT", self.sphere_count),
             ("BOX_COUNT", self.box_count),
             ("ROTATED_BOX_COUNT", self.rotated_box_count),

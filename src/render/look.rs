@@ -4,6 +4,10 @@
 //! so where a render stops depends on its samples alone, never on how fast they came or how the work was
 //! split. Few looks, each an eighth further, also keep small the bias that comes from stopping when an
 //! estimate happens to be low.
+//!
+//! Where samples are cut into randomisations a look may fall into one: its open part counts as one more, which
+//! makes the error too large rather than too small, and before the second no error is known. The length of a
+//! randomisation comes from the samples that are planned, not from those that are taken.
 
 use crate::pack::RUN_LENGTH;
 use std::ops::Range;

@@ -19,6 +19,8 @@ const FEATURES: u64 = 32 + 32;
 const DENOISED: u64 = 28 + 48 + 12 + 3 * 16 + 12 + 9;
 /// Of a pixel whose samples are shared out by scouts: their sums, and how far it is.
 const SCOUTS: u64 = 56 + 32;
+/// Of a pixel whose samples are cut into randomisations: the sum of the open one.
+const RANDOMISED: u64 = 24;
 /// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.
 const BODY: u64 = 1024;
 /// Results of a block are in the device's memory and in the host's, of several blocks at a time.
@@ -33,9 +35,11 @@ const THREAD: u64 = 80 << 20;
 pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
+    let randomised = task.scene.settings.render.randomisation().is_some();
     let of_pixel = PIXEL
         + if task.features { FEATURES } else { 0 }
         + if task.denoised { DENOISED } else { 0 }
+        + if randomised { RANDOMISED } else { 0 }
         + if task.terms().is_some() { SCOUTS } else { 0 };
     let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
     FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES

@@ -20,7 +20,8 @@ pub use rendering::Rendering;
 
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::Stop;
+use crate::film::{Film, Stop};
+use crate::knobs::Sequence;
 use crate::pack::{Rect, Traversal};
 use crate::scene::Scene;
 use adaptive::Work;
@@ -88,6 +89,35 @@ impl Task<'_> {
         (self.region.area() as u64).saturating_mul(samples)
     }
 
+    /// A film for it, without samples.
+    fn film(&self) -> Film {
+        let render = &self.scene.settings.render;
+        let shared = render.sequence == Sequence::BlueNoise;
+        match render.randomisation() {
+            None => Film::new(self.region),
+            Some(length) => Film::of_randomisations(self.region, length, shared),
+        }
+    }
+
+    /// Refuses a range that begins inside a randomisation: what is left of that is not spread as the whole is, and
+    /// whoever has the other part would count it twice.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] with the nearest range that begins where one does.
+    pub fn refuse_cut(&self) -> Result<()> {
+        let render = &self.scene.settings.render;
+        let Range { start, end } = self.samples;
+        let length = render.randomisation().unwrap_or(1);
+        let before = start - start % length;
+        if before == start {
+            return Ok(());
+        }
+        Err(Error::Usage(format!(
+            "samples {start}..{end} begin inside a randomisation: with render.sequence = {} and {} samples planned it is {length} samples long; give --sample-range {before}..{end}",
+            render.sequence, render.samples
+        )))
+    }
+
     /// What adaptive sampling goes by, where it is wanted.
     fn terms(&self) -> Option<adaptive::Terms> {
         let target = self.target_error.filter(|_| self.adaptive)?;
@@ -103,6 +133,7 @@ impl Task<'_> {
     /// # Errors
     /// [`Error::Internal`] for a film that this task cannot have left so.
     fn rest(&self, rendering: &Rendering) -> Result<Plan> {
+        self.refuse_cut()?;
         let film = &rendering.film;
         let samples = self.samples.clone();
         let stray = || Error::Internal("the film is of another render".into());

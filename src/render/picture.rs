@@ -72,6 +72,9 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         non_finite: 0,
         mean: [0.0; 3],
         standard_error: [0.0; 3],
+        error_estimate: rendering.film.error_estimate(),
+        randomisation: settings.render.randomisation(),
+        randomisation_means: Vec::new(),
         outputs: Vec::new(),
     }
 }

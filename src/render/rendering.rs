@@ -38,7 +38,7 @@ impl Rendering {
     /// A rendering of which nothing is done.
     pub fn new(task: &Task) -> Self {
         Self {
-            film: Film::new(task.region),
+            film: task.film(),
             scouts: task.terms().map(|_| adaptive::scouts(task.region)),
             features: None,
             stopped: None,
@@ -74,7 +74,12 @@ impl Rendering {
             scouts,
             ..Self::new(task)
         };
-        task.rest(&rendering).is_ok().then_some(rendering)
+        let sets = |film: &Film| {
+            let all = film.randomisations.as_ref();
+            all.map(|all| (all.length, all.pictures.is_some()))
+        };
+        let fits = sets(&rendering.film) == sets(&task.film());
+        (fits && task.rest(&rendering).is_ok()).then_some(rendering)
     }
 
     /// Whether every sample that was asked for has been taken.

@@ -4,8 +4,10 @@
 use super::draft::{Draft, Group};
 use super::faults::{Faults, Origin};
 use super::{Camera, Scene, Source};
+use crate::knobs::randomisation::SHORTEST;
 use crate::knobs::{
-    KNOBS, Knob, Preset, RenderKernel, SMALLEST, Settings, Value, choice, find, in_section,
+    KNOBS, Knob, Preset, RenderKernel, SMALLEST, Sequence, Settings, Value, choice, find,
+    in_section,
 };
 use glam::DVec3;
 use std::collections::HashMap;
@@ -36,6 +38,7 @@ pub(crate) fn build(
         _ => builder.single(path),
     });
     builder.picture(&settings);
+    builder.sequence(&settings);
     let camera = builder.camera();
     let background = builder.single("background.emission").triple();
     let materials = builder.materials();
@@ -146,6 +149,25 @@ impl Builder<'_, '_, '_> {
             });
         }
         Some(Value::Text("sample".into()))
+    }
+
+    /// Whether there are samples for two randomisations: of one nobody knows how far off it is.
+    fn sequence(&mut self, settings: &Settings) {
+        let (sequence, least) = (settings.render.sequence, 2 * SHORTEST);
+        if sequence == Sequence::Independent || settings.render.samples >= least {
+            return;
+        }
+        let origin = self.blame(&[
+            self.origin("render.sequence"),
+            self.origin("render.samples"),
+        ]);
+        self.faults.add(origin, || {
+            let message = format!(
+                "`render.sequence = \"{sequence}\"` takes {least} samples a pixel or more: two point sets of {SHORTEST}, for an error that can be told"
+            );
+            let note = format!("raise `render.samples` to {least}, or set `render.sequence` to `independent`");
+            (message, Some(note))
+        });
     }
 
     fn picture(&mut self, settings: &Settings) {

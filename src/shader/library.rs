@@ -32,6 +32,7 @@ library!(
     "rough",
     "scatter",
     "scene",
+    "sequence",
     "sphere",
     "trace",
 );

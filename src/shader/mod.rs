@@ -51,6 +51,7 @@ choice! {
     Probe, "PROBE" {
         RandomBits = "random-bits",
         RandomUnit = "random-unit",
+        Sequence = "sequence",
         SincosTurn = "sincos-turn",
         UnitSphere = "unit-sphere",
         AngleOfChord = "angle-of-chord",
@@ -85,6 +86,7 @@ fn constants() -> String {
         InterruptionWeight::wgsl_constants(),
         InterruptionOrder::wgsl_constants(),
         LastRay::wgsl_constants(),
+        Sequence::wgsl_constants(),
         Probe::wgsl_constants(),
         Canary::wgsl_constants(),
         format!("const RUN_LENGTH: u32 = {RUN_LENGTH}u;\n"),

@@ -244,6 +244,9 @@ fn record(samples: u64, seed: u64) -> Record {
         non_finite: 0,
         mean: [0.0; 3],
         standard_error: [0.0; 3],
+        error_estimate: Default::default(),
+        randomisation: None,
+        randomisation_means: Vec::new(),
         outputs: Vec::new(),
     }
 }

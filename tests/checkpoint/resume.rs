@@ -24,7 +24,7 @@ fn resumed(task: &Task, rendering: &Rendering, folder: &Folder) -> Option<Render
     Some(rendering)
 }
 
-/// Whole images, crops, ranges that start within a run.
+/// Whole images, crops, ranges that start within a run; and samples that are cut into randomisations.
 fn each_task(check: impl Fn(&Task)) {
     let scene = room(&[]);
     let whole = Task::new(&scene);
@@ -44,6 +44,16 @@ fn each_task(check: impl Fn(&Task)) {
         samples: 16..40,
         ..whole
     });
+    for sequence in ["render.sequence=sobol", "render.sequence=blue-noise"] {
+        let scene = room(&[sequence, "render.randomisations=2"]);
+        let whole = Task::new(&scene);
+        check(&Task {
+            region: crop,
+            samples: 32..100,
+            ..whole.clone()
+        });
+        check(&whole);
+    }
 }
 
 #[test]

@@ -15,14 +15,14 @@ const ALBEDO: [f64; 3] = [0.6, 0.5, 0.4];
 
 /// The spheres, and which of them is looked at.
 #[derive(Clone, Copy, Debug)]
-struct Spheres {
+pub(super) struct Spheres {
     inner_albedo: f64,
     outer_emission: f64,
     max_bounces: u32,
     look_in: bool,
 }
 
-const PLAIN: Spheres = Spheres {
+pub(super) const PLAIN: Spheres = Spheres {
     inner_albedo: 0.4,
     outer_emission: 0.0,
     max_bounces: 3,
@@ -43,7 +43,7 @@ impl Spheres {
         if self.look_in { sum.0 } else { sum.1 }
     }
 
-    fn case(self) -> Case {
+    pub(super) fn case(self) -> Case {
         let (target, fov) = if self.look_in {
             ("3.0, -1.0, 0.5", 20)
         } else {

@@ -46,7 +46,7 @@ pub fn turn(degrees: DVec3) -> DMat3 {
 
 /// A lamp of half angle `half`, at `omega` from the normal of a box's face.
 #[derive(Clone, Copy, Debug)]
-struct Lit {
+pub(super) struct Lit {
     half: f64,
     omega: f64,
     rotation: [f64; 3],
@@ -57,7 +57,7 @@ const EMISSION: [f64; 3] = [3.0, 1.0, 7.0];
 
 impl Lit {
     /// The middle of the lit face is at `place`; the camera sees nothing else.
-    fn case(self) -> Case {
+    pub(super) fn case(self) -> Case {
         let place = DVec3::new(0.3, -0.2, 0.1);
         let normal = turn(self.rotation.into()) * DVec3::Y;
         let aside = normal.cross(DVec3::new(0.6, 0.0, 0.8)).normalize();
@@ -124,6 +124,9 @@ const LAMPS: [Lit; 12] = [
     lit(0.3, 1.9, FLAT),
     lit(0.5, 2.5, [33.0, 0.0, 66.0]),
 ];
+
+/// One that every sampler and strategy finds, cut by the horizon, for other tests.
+pub(super) const MIDDLING: Lit = CUT[0];
 
 /// Scattered rays alone find a small lamp too rarely for 0.2 % in a test.
 const LEAST_FOR_HITS: f64 = 0.04;

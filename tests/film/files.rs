@@ -138,7 +138,7 @@ fn the_record_is_the_contract() {
     let json = record.to_json();
     let names = "version scene scene_hash shader_hash preset knobs kernel device width height crop \
         samples sample_range seed complete biased seconds paths rays non_finite mean \
-        standard_error outputs";
+        standard_error error_estimate outputs";
     let value: serde_json::Map<String, serde_json::Value> = serde_json::from_str(&json).unwrap();
     let keys: Vec<&str> = value.keys().map(String::as_str).collect();
     assert_eq!(keys, names.split_whitespace().collect::<Vec<_>>());

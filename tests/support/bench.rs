@@ -51,18 +51,28 @@ impl Bench {
     /// A pilot of other samples tells how many are needed, so that the samples that count never
     /// decide on their own number. Where it misled, all are thrown away and twice as many taken.
     pub fn measure(self, scene: &Scene, precision: f64) -> Film {
-        let pilot = self.film(scene, 0..PILOT);
-        let most = (MOST_PATHS / pilot.region.area() as u64).max(PILOT);
-        let wanted = PILOT as f64 * (relative_error(&pilot) / (0.95 * precision)).powi(2);
-        let mut samples = (wanted.ceil() as u64).clamp(PILOT, most);
-        let mut start = PILOT;
+        // Where the error is told by randomisations, those that are planned: the error of a few is a guess.
+        let render = &scene.settings.render;
+        let length = render.randomisation().unwrap_or(1);
+        let least = if length > 1 {
+            render.samples.next_multiple_of(length)
+        } else {
+            PILOT
+        };
+        let pilot = self.film(scene, 0..least);
+        let most = (MOST_PATHS / pilot.region.area() as u64).max(least);
+        let wanted = least as f64 * (relative_error(&pilot) / (0.95 * precision)).powi(2);
+        let whole = |samples: u64| samples.next_multiple_of(length);
+        let most = whole(most);
+        let mut samples = whole((wanted.ceil() as u64).clamp(least, most));
+        let mut start = least;
         loop {
             let film = self.film(scene, start..start + samples);
             if relative_error(&film) <= precision || samples == most {
                 return film;
             }
             start += samples;
-            samples = (2 * samples).min(most);
+            samples = whole((2 * samples).min(most));
         }
     }
 }

@@ -63,6 +63,8 @@ pub fn strategy() -> Strategy {
         rough_surfaces: false,
         glass_surfaces: false,
         lens: false,
+        sequence: Sequence::Independent,
+        randomisation_bits: 4,
         sphere_count: 0,
         box_count: 0,
         rotated_box_count: 0,

@@ -60,6 +60,7 @@ pub fn all() -> Vec<Case> {
         .into_iter()
         .chain(many)
         .chain(crate::gloss::all())
+        .chain(crate::sequence::cases())
         .collect()
 }
 

@@ -79,6 +79,45 @@ const PAIRS: [(&str, Setting, u64, Setting, u64); 9] = [
     ("many lamps, many against few hits", MANY, 64, MANY_HITS, 4),
 ];
 
+/// Two seeds of one sequence, and a sequence against independent samples: variances of few randomisations.
+const SETS: [(&str, Setting, Setting); 4] = [
+    ("stratified", STRATIFIED, STRATIFIED),
+    ("sobol", SOBOL, SOBOL),
+    ("blue noise", BLUE_NOISE, BLUE_NOISE),
+    ("sobol against independent", SOBOL, ROOM),
+];
+
+const STRATIFIED: Setting = Setting {
+    scene: "cornell",
+    sets: &["render.sequence=stratified"],
+};
+const SOBOL: Setting = Setting {
+    scene: "cornell",
+    sets: &["render.sequence=sobol"],
+};
+const BLUE_NOISE: Setting = Setting {
+    scene: "cornell",
+    sets: &["render.sequence=blue-noise"],
+};
+
+/// 40 pairs of each, of eight randomisations of 16 samples: as often as stated at most.
+#[test]
+fn the_stated_rate_is_kept_with_randomisations() {
+    let mut seed = first_seed(90_000);
+    for (name, first, second) in SETS {
+        let mut alarms = 0;
+        for _ in 0..40 {
+            let reference = first.render(32, 128, seed);
+            let test = second.render(32, 128, seed + 1);
+            let verdict = compare(&reference, &test, Terms::default());
+            alarms += u64::from(verdict.outcome == Outcome::Different);
+            seed += 2;
+        }
+        println!("{name}: {alarms} of 40 pairs called different");
+        assert!(!too_often(alarms, 40), "{name}: {alarms}");
+    }
+}
+
 const HITS: Setting = Setting {
     scene: "cornell",
     sets: &["light.strategy=hit"],

@@ -57,6 +57,10 @@ fn side(picture: &Picture) -> Side<'_> {
         mean: &picture.mean,
         variance: &picture.variance,
         samples: &picture.samples,
+        run: picture
+            .record
+            .randomisation
+            .map_or(1.0, |length| length as f64),
     }
 }
 

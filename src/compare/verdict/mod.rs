@@ -17,6 +17,11 @@
 //! varies by is read from its spread over the pixels, which are independent of each other, and the third
 //! layer, for which there is no such spread, is left out. Where a pixel has fewer than four samples, its
 //! variance is too uncertain for layers that look at few pixels, and the mean alone is judged.
+//!
+//! Samples of a picture with another `render.sequence` than `independent` are no independent ones: its variances
+//! are made of randomisations, and those are counted wherever samples are above. The errors of its pixels are taken
+//! as independent all the same. With `blue-noise` they shun each other, so that sums over pixels vary less than is
+//! taken here: alarms are rarer than `alpha` says.
 
 mod estimate;
 mod moments;
@@ -87,8 +92,8 @@ pub struct Verdict {
     pub needed: Option<Needed>,
 }
 
-/// Samples of each pixel from which on the variances of few pixels can be relied on.
-const LEAST: f32 = 4.0;
+/// Samples of each pixel, or randomisations, from which on the variances of few pixels can be relied on.
+const LEAST: f64 = 4.0;
 
 /// Number of layers.
 fn layers(sides: &Sides) -> f64 {
@@ -101,7 +106,7 @@ pub fn judge(sides: &Sides, terms: Terms) -> Verdict {
     let pooled = [0, 1, 2].map(|channel| Estimate::new(sides.everywhere(channel), terms.tolerance));
     let pooled_level = sidak(alpha, 3.0);
     let pooled_fails = pooled.iter().any(|mean| mean.p() < pooled_level);
-    let enough = sides.fewest_samples() >= LEAST;
+    let enough = sides.fewest_estimates() >= LEAST;
     let tiles = enough.then(|| tiles::judge(sides, alpha, terms.tolerance));
     let pixels =
         (!sides.relation.paired && enough).then(|| pixels::judge(sides, alpha, terms.tolerance));

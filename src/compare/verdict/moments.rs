@@ -12,6 +12,9 @@ pub struct Side<'a> {
     pub variance: &'a [[f32; 3]],
     /// Paths of each pixel, at least 2.
     pub samples: &'a [f32],
+    /// Paths behind one of the independent estimates that the variance is made of: 1, or the length of a
+    /// randomisation. A pixel has two of them at least.
+    pub run: f64,
 }
 
 /// What is known of how the two pictures were made.
@@ -88,10 +91,13 @@ impl<'a> Sides<'a> {
         }
     }
 
-    /// The fewest samples that a pixel of either picture has.
-    pub fn fewest_samples(&self) -> f32 {
-        let all = self.reference.samples.iter().chain(self.test.samples);
-        all.copied().fold(f32::INFINITY, f32::min)
+    /// The fewest independent estimates that a pixel's variance is made of, in either picture.
+    pub fn fewest_estimates(&self) -> f64 {
+        let all = |side: &Side| {
+            let fewest = side.samples.iter().copied().fold(f32::INFINITY, f32::min);
+            f64::from(fewest) / side.run
+        };
+        all(&self.reference).min(all(&self.test))
     }
 
     fn add(&self, sums: &mut Sums, pixel: usize, channel: usize, around: &Whereabouts) {
@@ -117,7 +123,9 @@ impl<'a> Sides<'a> {
         };
         sums.other[0] += expected[0] / many;
         sums.other[1] += expected[1] / n;
-        sums.spread += first * first / (many - 1.0) + second * second / (n - 1.0);
+        let [of_first, of_second] =
+            [(many, self.reference.run), (n, self.test.run)].map(|(n, run)| n / run - 1.0);
+        sums.spread += first * first / of_first + second * second / of_second;
     }
 
     fn sum_all(&self, channel: usize) -> Sums {
