@@ -59,6 +59,7 @@ choice! {
         EvaluateScatter = "evaluate-scatter",
         SampleLight = "sample-light",
         LightDensity = "light-density",
+        FirstShare = "first-share",
         Survival = "survival",
         Finite = "finite",
     }
@@ -72,6 +73,7 @@ fn constants() -> String {
         LightSampler::wgsl_constants(),
         LightWeight::wgsl_constants(),
         LightStrategy::wgsl_constants(),
+        LightChoice::wgsl_constants(),
         LightDirect::wgsl_constants(),
         ScatterDiffuse::wgsl_constants(),
         ScatterBound::wgsl_constants(),
