@@ -3,10 +3,11 @@
 use glam::DVec3;
 use lampray::scene::{Assignment, Scene, Sphere};
 
-/// A room open towards the camera, and two kinds of lamps, one sixteen times as bright.
+/// A room, and two kinds of lamps, one sixteen times as bright. The camera looks down at the floor from under
+/// the lamps: it sees none of them, whose own picture would drown the noise of their light.
 const ROOM: &str = r#"version = 1
-camera = { position = [0.0, 1.0, 3.6], look_at = [0.0, 1.0, 0.0], fov = 42.0 }
-image = { width = 32, height = 32 }
+camera = { position = [0.0, 0.08, 0.95], look_at = [0.0, 0.0, 0.2], fov = 6.0 }
+image = { width = 8, height = 8 }
 render = { max_bounces = 1 }
 
 [materials]
@@ -69,7 +70,7 @@ pub fn room(count: usize, sets: &[String]) -> Scene {
     for number in 0..count {
         let [x, y, z] = std::array::from_fn(|_| unit(&mut state));
         scene.spheres.push(Sphere {
-            center: DVec3::new(1.7 * x - 0.85, 1.7 * y + 0.15, 1.7 * z - 0.85),
+            center: DVec3::new(1.7 * x - 0.85, 1.6 * y + 0.25, 1.7 * z - 0.85),
             radius,
             material: kinds[usize::from(number % 8 == 0)],
         });

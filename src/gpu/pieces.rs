@@ -12,7 +12,7 @@ use crate::pack::{Packed, RUN_LENGTH, Rect, Tally, Traversal};
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
 /// Steps of a lane that are not too long for one dispatch, a fraction of a second each million: only where paths
-/// may be longer than a hundred thousand bounces does a run come in pieces.
+/// may be longer than a hundred thousand bounces, or send as many shadow rays, does a run come in pieces.
 const LONG_LANE: u64 = 1 << 21;
 /// Lanes that a software driver runs in step, 32 bits each in its widest vectors: their loops go on
 /// until the last is done, so that together they may take no more than one may.
@@ -51,7 +51,10 @@ impl Allowance {
     /// None where a device cannot take a single step of the scene.
     pub fn new(device: &DeviceInfo, scene: &Packed) -> Option<Self> {
         if !stops_early(device) {
-            let samples = (LONG_LANE / (u64::from(scene.max_bounces) + 1)).max(1);
+            // A step that asks every one of many lamps is as long as that many steps.
+            let rays = u64::from(scene.strategy.shadow_rays()).max(1);
+            let steps = (u64::from(scene.max_bounces) + 1).saturating_mul(rays);
+            let samples = (LONG_LANE / steps).max(1);
             return Some(Self {
                 steps: u32::MAX,
                 samples: 1 << samples.ilog2(),

@@ -3,6 +3,7 @@
 
 use super::{Task, plan};
 use crate::error::{Error, Result};
+use crate::knobs::LightChoice;
 use crate::pack::Tally;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,6 +17,9 @@ const PIXEL: u64 = 56 + 28 + 9;
 const FEATURES: u64 = 32 + 32;
 /// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.
 const BODY: u64 = 1024;
+/// Of a lamp, one of which is chosen: its pair of the light tree while that is built, as packed, and on the
+/// device. The alias table takes less.
+const CHOSEN_LAMP: u64 = 512;
 /// Results of a block are in the device's memory and in the host's, of several blocks at a time.
 const TALLY_COPIES: u64 = 10;
 
@@ -28,9 +32,14 @@ const THREAD: u64 = 80 << 20;
 pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
+    let lamps = match task.scene.settings.light.choice {
+        LightChoice::All => 0,
+        _ => task.scene.lamps().count() as u64,
+    };
     let of_pixel = PIXEL + if task.features { FEATURES } else { 0 };
     let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
-    FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
+    let of_scene = bodies * BODY + lamps * CHOSEN_LAMP;
+    FIXED + of_scene + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
 }
 
 /// Refuses a render that this machine, or the control group that the program runs in, has too little memory for.
