@@ -14,6 +14,8 @@
 override OUTSIDE_SPHERE_COUNT: u32;
 override OUTSIDE_BOX_COUNT: u32;
 override OUTSIDE_ROTATED_COUNT: u32;
+// Iterations of the loops over lamps that a step may take.
+override LIGHT_LOOPS: u32;
 
 // Entries of the list before the first node.
 const HEADER: u32 = 3u;
@@ -199,7 +201,7 @@ fn nearest_outside(ray: Ray) -> Hit {
 }
 
 fn nearest_hit(ray: Ray) -> Hit {
-    spent += LAMP_COUNT + outside_loops() + 3u;
+    spent += LIGHT_LOOPS + outside_loops() + 3u;
     var best = nearest_outside(ray);
     var walk = start_walk(ray);
     while walk.place < walk.end && !cut_short() {

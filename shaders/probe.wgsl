@@ -11,6 +11,7 @@
 // #import scatter
 // #import glass
 // #import light
+// #import light_tree
 // #import interruption
 
 struct ProbeJob {
@@ -114,6 +115,10 @@ fn probe(in: Input) -> Output {
             let density = light_inverse_density(
                 lamp, probe_pole(), in.b.xyz, in.d.x == 1.0, to_point / reach, reach, in.c.xyz);
             return Output(vec4<f32>(density, power_heuristic(in.d.y), 0.0, 0.0), zero);
+        }
+        case PROBE_FIRST_SHARE: {
+            let pair = LightPair(in.a, in.b, vec2<f32>(in.c.w, in.d.w), vec2<u32>(0u));
+            return Output(vec4<f32>(f32(first_share(pair, in.c.xyz, in.d.xyz)), 0.0, 0.0, 0.0), zero);
         }
         case PROBE_SURVIVAL: {
             let probability = survival_probability(in.a.x, in.b.xyz, in.c.xyz);

@@ -25,7 +25,8 @@ fn random_key(seed: vec2<u32>, pixel: vec2<u32>, sample: vec2<u32>) -> vec4<u32>
 }
 
 // Four 32-bit numbers. A dimension is a pair: `vertex` is 0 for the camera and k + 1 for hit k;
-// `slot` is 0 for scattering and interruption and i + 1 for lamp i.
+// `slot` is 0 for scattering and interruption and i + 1 for lamp i; where one lamp is drawn, 1 is for the
+// point on it and 2 for the choice.
 fn random_bits(key: vec4<u32>, vertex: u32, slot: u32) -> vec4<u32> {
     return pcg4d(key + vec4<u32>(vertex, slot, 0u, 0u));
 }

@@ -2,9 +2,9 @@
 // traversal: `loops`, `bvh` or `baked`, files with the same functions of which a kernel gets one; the
 // host prints half of the last.
 //
-// This library and the traversals alone read bindings: group 0 is the scene. The host prints them, as
-// one uniform buffer where the scene is small and as storage buffers where it is not, with the functions
-// that read them: material_at, sphere_at, box_at and lamp_at. Boxes come with the unrotated ones first.
+// This library, `choice` and the traversals alone read bindings: group 0 is the scene. The host prints them,
+// as one uniform buffer where the scene is small and as storage buffers where it is not, with the functions
+// that read them: material_at, sphere_at, box_at, lamp_at and choice_at. Boxes come with the unrotated ones first.
 // A body is a sphere or a box, counted from 1 in that order.
 
 // #import maths

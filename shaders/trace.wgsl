@@ -9,6 +9,7 @@
 // #import traversal
 // #import scatter
 // #import light
+// #import choice
 // #import interruption
 
 override LIGHT_STRATEGY: u32;
@@ -60,6 +61,8 @@ struct Path {
     vertex: u32,
     // Of the direction the ray was scattered into; 0 where it has none.
     density: f32,
+    // Of the surface that scattered it there.
+    normal: vec3<f32>,
     rays: u32,
     alive: bool,
 }
@@ -72,7 +75,7 @@ fn start_path(pixel: vec2<u32>, sample: vec2<u32>) -> Path {
         ray.origin = sample_lens(job.camera, sequence_unit(key, 0u, 1u).xy);
         ray.direction = lens_direction(job.camera, film, ray.origin);
     }
-    return Path(key, ray, vec3<f32>(1.0), vec3<f32>(0.0), 0u, 0.0, 0u, true);
+    return Path(key, ray, vec3<f32>(1.0), vec3<f32>(0.0), 0u, 0.0, vec3<f32>(0.0), 0u, true);
 }
 
 // Whether what a ray finds by itself counts. As published only what the camera sees does.
@@ -90,10 +93,11 @@ fn lamp_hit_weight(path: Path, surface: Surface, distance: f32) -> f32 {
         return 0.0;
     }
     let lamp = lamp_at(surface.lamp - 1u);
+    let probability = choice_probability(surface.lamp - 1u, path.ray.origin, path.normal);
     let outward = select(surface.normal, -surface.normal, surface.inside);
     let inverse_density = light_inverse_density(
         lamp, job.pole, path.ray.origin, surface.inside, path.ray.direction, distance, outward);
-    return power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30));
+    return power_heuristic(probability / greater(inverse_density * path.density, 1e-30));
 }
 
 fn emitted(path: Path, surface: Surface, distance: f32) -> vec3<f32> {
@@ -114,8 +118,15 @@ struct DirectLight {
 }
 
 // What one lamp sends to a surface and the surface sends on along the path, by one shadow ray
-// from `origin`, a point just off the surface.
-fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: vec4<f32>) -> DirectLight {
+// from `origin`, a point just off the surface. `inverse_probability`: of the choice of this lamp.
+fn light_from(
+    lamp: Lamp,
+    inverse_probability: f32,
+    path: Path,
+    surface: Surface,
+    origin: vec3<f32>,
+    u: vec4<f32>,
+) -> DirectLight {
     let material = material_at(surface.material);
     let incoming = path.ray.direction;
     let own = surface.body == lamp.body;
@@ -126,9 +137,9 @@ fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: ve
     if LIGHT_DIRECT == LIGHT_DIRECT_BSDF {
         reflected = evaluate_by_density(material, surface.normal, incoming, light.direction, density);
     }
-    var weight = light.weight;
+    var weight = light.weight * inverse_probability;
     if LIGHT_STRATEGY == LIGHT_STRATEGY_MIS {
-        weight *= power_heuristic(light.inverse_density * density);
+        weight *= power_heuristic(light.inverse_density * inverse_probability * density);
     }
     let value = reflected * weight * lamp.emission;
     // A lamp never lights its own outer side.
@@ -140,15 +151,20 @@ fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: ve
     return DirectLight(select(value, vec3<f32>(0.0), blocked), 1u);
 }
 
-// The paper's direct light: one shadow ray to each lamp.
+// The paper's direct light, one shadow ray to each lamp; or one to a lamp that is drawn.
 fn direct_light(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight {
     var sum = DirectLight(vec3<f32>(0.0), 0u);
     if LIGHT_STRATEGY == LIGHT_STRATEGY_HIT {
         return sum;
     }
+    if LIGHT_CHOICE != LIGHT_CHOICE_ALL && LAMP_COUNT > 0u {
+        let chosen = choose_lamp(path.key, path.vertex + 1u, origin, surface.normal);
+        let u = sequence_unit(path.key, path.vertex + 1u, 1u);
+        return light_from(lamp_at(chosen.lamp), chosen.inverse_probability, path, surface, origin, u);
+    }
     for (var i = 0u; i < LAMP_COUNT; i++) {
         let u = sequence_unit(path.key, path.vertex + 1u, i + 1u);
-        let one = light_from(lamp_at(i), path, surface, origin, u);
+        let one = light_from(lamp_at(i), 1.0, path, surface, origin, u);
         sum = DirectLight(sum.radiance + one.radiance, sum.rays + one.rays);
     }
     return sum;
@@ -174,6 +190,7 @@ fn scatter_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, 
     (*path).vertex += 1u;
     let useful = (*path).vertex < job.max_bounces || last_ray_counts(scattered);
     (*path).alive = useful && largest((*path).throughput) > 0.0;
+    (*path).normal = surface.normal;
 }
 
 // Emission, direct light and the next ray of one hit; the interruption test stands before or

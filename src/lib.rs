@@ -25,7 +25,7 @@
 //!
 //! | room | what lives there |
 //! |---|---|
-//! | `shaders/` | kernels (`trace`, `features`, `guides`, `denoise`, `points`, `probe`, `canary`: group 1 and one entry point) and libraries (functions only; `scene` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
+//! | `shaders/` | kernels (`trace`, `features`, `guides`, `denoise`, `points`, `probe`, `canary`: group 1 and one entry point) and libraries (functions only; `scene`, `choice` and the traversals `loops`, `bvh` and `baked` alone read group 0) |
 //! | [`knobs`] | the one table of knobs, the presets, the typed settings |
 //! | [`scene`] | the scene's types, the TOML parser with places, the checks |
 //! | [`bvh`] | bodies' bounds as a tree that is walked without a stack |
@@ -59,7 +59,7 @@
 //!    samples of a pixel are cut into randomisations, each a well spread point set that is made random anew,
 //!    and a number is a function of the same address.
 //! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
-//!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`), the
+//!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`) or to one that is drawn (`choice`, by a `light_tree`), the
 //!    interruption test (`interruption`), the next direction (`scatter`).
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend

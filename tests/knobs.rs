@@ -50,6 +50,7 @@ const PRESETS: &[(&str, [&str; 4])] = &[
     ("light.weight", ["solid-angle", "solid-angle", "pdf", "pdf"]),
     ("light.weight_radius", ["1.5", "null", "null", "null"]),
     ("light.strategy", ["sample", "sample", "mis", "mis"]),
+    ("light.choice", ["all", "all", "all", "all"]),
     ("light.direct", ["lambert", "lambert", "bsdf", "bsdf"]),
     ("scatter.diffuse", ["cosine", "cosine", "cosine", "cosine"]),
     ("scatter.bound", ["clamp", "clamp", "truncate", "truncate"]),

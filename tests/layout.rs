@@ -432,7 +432,11 @@ fn a_scene_in_one_buffer_lies_as_it_is_uploaded() {
             outside_boxes: materials,
             ..arrays
         };
-        for arrays in [arrays, with_tree] {
+        let with_choice = SceneArrays {
+            choice: 4 * lamps,
+            ..arrays
+        };
+        for arrays in [arrays, with_tree, with_choice] {
             for kernel in [Kernel::Trace, Kernel::Features] {
                 let printed = printed_offsets(&module(kernel, arrays));
                 assert_eq!(printed, packed_offsets(arrays), "{kernel} {lengths:?}");

@@ -31,8 +31,14 @@ fn with_tree(arrays: SceneArrays) -> SceneArrays {
     }
 }
 
-/// Array lengths: the smallest, all uniform, all storage, and each mixed with the others; and the
-/// same by a tree.
+/// The same with something that lamps are chosen by: as little as there can be, or as much.
+fn with_choice(arrays: SceneArrays) -> SceneArrays {
+    let choice = if arrays.lamps > 2 { 300_000 } else { 1 };
+    SceneArrays { choice, ..arrays }
+}
+
+/// Array lengths: the smallest, all uniform, all storage, and each mixed with the others; the
+/// same by a tree; and all of these with lamps that are chosen.
 fn array_sets() -> Vec<SceneArrays> {
     let large = 100_000;
     let sets = [
@@ -44,13 +50,16 @@ fn array_sets() -> Vec<SceneArrays> {
         arrays(large, 2, 2, 2),
         arrays(2, large, 2, large),
     ];
-    sets.into_iter().chain(sets.map(with_tree)).collect()
+    let all = sets.into_iter().chain(sets.map(with_tree));
+    all.flat_map(|arrays| [arrays, with_choice(arrays)])
+        .collect()
 }
 
 /// How many values each knob of a strategy has, in the order that [`spelled`] reads them.
-const VALUES: [usize; 15] = [2, 4, 2, 3, 2, 2, 2, 2, 4, 2, 2, 3, 2, 2, 2];
+const VALUES: [usize; KNOBS] = [2, 4, 2, 3, 2, 2, 2, 2, 4, 2, 2, 3, 2, 2, 2, 4];
+const KNOBS: usize = 16;
 
-fn spelled(row: &[usize; 15]) -> Strategy {
+fn spelled(row: &[usize; KNOBS]) -> Strategy {
     Strategy {
         filter: Filter::ALL[row[0]],
         light_sampler: LightSampler::ALL[row[1]],
@@ -67,13 +76,14 @@ fn spelled(row: &[usize; 15]) -> Strategy {
         rough_surfaces: row[12] == 1,
         glass_surfaces: row[13] == 1,
         lens: row[14] == 1,
+        light_choice: LightChoice::ALL[row[15]],
         ..support::strategy()
     }
 }
 
 type Pair = (usize, usize, usize, usize);
 
-fn pairs(row: &[usize; 15]) -> Vec<Pair> {
+fn pairs(row: &[usize; KNOBS]) -> Vec<Pair> {
     let places = (0..row.len()).flat_map(|a| (a + 1..row.len()).map(move |b| (a, b)));
     places.map(|(a, b)| (a, row[a], b, row[b])).collect()
 }
@@ -90,7 +100,7 @@ fn all_pairs() -> HashSet<Pair> {
 
 /// Rows that hold every value of every knob together with every value of every other: whatever two
 /// knobs interact, some row has that pair. Each row is the best of many drawn at random.
-fn covering_rows() -> Vec<[usize; 15]> {
+fn covering_rows() -> Vec<[usize; KNOBS]> {
     let mut left = all_pairs();
     let mut rows = Vec::new();
     let mut stream = Stream::new(1);
@@ -98,7 +108,7 @@ fn covering_rows() -> Vec<[usize; 15]> {
         let candidates: Vec<_> = (0..64)
             .map(|_| VALUES.map(|count| (stream.bits() % count as u64) as usize))
             .collect();
-        let gain = |row: &&[usize; 15]| pairs(row).iter().filter(|p| left.contains(p)).count();
+        let gain = |row: &&[usize; KNOBS]| pairs(row).iter().filter(|p| left.contains(p)).count();
         let best = *candidates.iter().max_by_key(gain).unwrap();
         for pair in pairs(&best) {
             left.remove(&pair);
@@ -172,7 +182,10 @@ fn every_kernel_is_valid_with_every_strategy() {
     let rows = covering_rows();
     let by_loops = arrays(4, 4, 8, 1);
     let kernels = Kernel::ALL.iter().map(|kernel| (*kernel, by_loops));
-    for (kernel, arrays) in kernels.chain([(Kernel::Trace, with_tree(by_loops))]) {
+    for (kernel, arrays) in kernels.chain([
+        (Kernel::Trace, with_tree(by_loops)),
+        (Kernel::Trace, with_choice(by_loops)),
+    ]) {
         let (module, info) = module(kernel, arrays);
         for row in &rows {
             let strategy = Strategy {
@@ -293,6 +306,7 @@ fn enums_have_the_same_numbers_on_both_sides() {
         expected::<LightSampler>("LIGHT_SAMPLER"),
         expected::<LightWeight>("LIGHT_WEIGHT"),
         expected::<LightStrategy>("LIGHT_STRATEGY"),
+        expected::<LightChoice>("LIGHT_CHOICE"),
         expected::<LightDirect>("LIGHT_DIRECT"),
         expected::<ScatterDiffuse>("SCATTER_DIFFUSE"),
         expected::<ScatterBound>("SCATTER_BOUND"),

@@ -1,6 +1,7 @@
 //! Twin of `shaders/trace.wgsl`: the vertices of a pixel's paths, one after the other.
 
 use super::camera::{camera_direction, lens_direction, sample_film, sample_lens};
+use super::choice::{choice_probability, choose_lamp};
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
 use super::maths::{Basis, greater, largest};
@@ -23,6 +24,8 @@ struct Path {
     vertex: u32,
     /// Of the direction the ray was scattered into; 0 where it has none.
     density: f32,
+    /// Of the surface that scattered it there.
+    normal: Vec3,
     rays: u32,
     alive: bool,
 }
@@ -75,6 +78,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             radiance: Vec3::ZERO,
             vertex: 0,
             density: 0.0,
+            normal: Vec3::ZERO,
             rays: 0,
             alive: true,
         }
@@ -94,7 +98,9 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         if strategy.light_strategy == LightStrategy::Sample {
             return 0.0;
         }
-        let lamp = &self.scene.lamps[(surface.lamp as usize).wrapping_sub(1)];
+        let index = surface.lamp.wrapping_sub(1);
+        let lamp = &self.scene.lamps[index as usize];
+        let probability = choice_probability(self.scene, index, path.ray.origin, path.normal);
         let outward = if surface.inside {
             -surface.normal
         } else {
@@ -108,7 +114,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         };
         let inverse_density =
             light_inverse_density(strategy, lamp, self.pole, path.ray.origin, hit);
-        power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30))
+        power_heuristic(probability / greater(inverse_density * path.density, 1e-30))
     }
 
     #[inline(always)]
@@ -124,11 +130,12 @@ impl<'a, T: Traversal> Tracer<'a, T> {
     }
 
     /// What one lamp sends to a surface and the surface sends on, by one shadow ray; and whether
-    /// the ray was traced.
+    /// the ray was traced. `slot`: of its random numbers; `inverse_probability`: of the choice of this lamp.
     #[inline(always)]
     fn light_from(
         &self,
-        index: usize,
+        (index, slot): (usize, u32),
+        inverse_probability: f32,
         path: &Path,
         surface: &Surface,
         origin: Vec3,
@@ -144,7 +151,6 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         }
         let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
         // Here and below whole numbers wrap, as WGSL's do: asking whether they would costs 3 % of the time.
-        let slot = (index as u32).wrapping_add(1);
         let vertex = path.vertex.wrapping_add(1);
         let u = Vec4::from(sequence_unit(strategy, path.key, vertex, slot));
         let light = sample_light(strategy, lamp, self.pole, origin, inside, u);
@@ -169,9 +175,9 @@ impl<'a, T: Traversal> Tracer<'a, T> {
                 )
             }
         };
-        let mut weight = light.weight;
+        let mut weight = light.weight * inverse_probability;
         if strategy.light_strategy == LightStrategy::Mis {
-            weight *= power_heuristic(light.inverse_density * density);
+            weight *= power_heuristic(light.inverse_density * inverse_probability * density);
         }
         let value = reflected * weight * Vec3::from(lamp.emission);
         if largest(value) == 0.0 {
@@ -187,15 +193,26 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         (if blocked { Vec3::ZERO } else { value }, 1)
     }
 
-    /// The paper's direct light: one shadow ray to each lamp.
+    /// The paper's direct light, one shadow ray to each lamp; or one to a lamp that is drawn.
     #[inline(always)]
     fn direct_light(&self, path: &mut Path, surface: &Surface, origin: Vec3) {
         if self.scene.strategy.light_strategy == LightStrategy::Hit {
             return;
         }
+        if self.scene.strategy.light_choice != LightChoice::All && !self.scene.lamps.is_empty() {
+            let vertex = path.vertex.wrapping_add(1);
+            let chosen = choose_lamp(self.scene, path.key, vertex, origin, surface.normal);
+            let lamp = (chosen.lamp as usize, 1);
+            let (radiance, rays) =
+                self.light_from(lamp, chosen.inverse_probability, path, surface, origin);
+            path.rays = path.rays.saturating_add(rays);
+            path.radiance += path.throughput * radiance;
+            return;
+        }
         let mut sum = Vec3::ZERO;
         for index in 0..self.scene.lamps.len() {
-            let (radiance, rays) = self.light_from(index, path, surface, origin);
+            let lamp = (index, (index as u32).wrapping_add(1));
+            let (radiance, rays) = self.light_from(lamp, 1.0, path, surface, origin);
             sum += radiance;
             path.rays = path.rays.saturating_add(rays);
         }
@@ -238,6 +255,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         path.vertex = path.vertex.wrapping_add(1);
         let useful = path.vertex < self.job.max_bounces || self.last_ray_counts(&scattered);
         path.alive = useful && largest(path.throughput) > 0.0;
+        path.normal = surface.normal;
     }
 
     /// Emission, direct light and the next ray of one hit.

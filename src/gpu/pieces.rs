@@ -12,7 +12,7 @@ use crate::pack::{Packed, RUN_LENGTH, Rect, Tally, Traversal};
 /// Loop iterations that an invocation may plan, with some to spare.
 const SOFTWARE_ITERATIONS: u64 = 65_000;
 /// Steps of a lane that are not too long for one dispatch, a fraction of a second each million: only where paths
-/// may be longer than a hundred thousand bounces does a run come in pieces.
+/// may be longer than a hundred thousand bounces, or send as many shadow rays, does a run come in pieces.
 const LONG_LANE: u64 = 1 << 21;
 /// Lanes that a software driver runs in step, 32 bits each in its widest vectors: their loops go on
 /// until the last is done, so that together they may take no more than one may.
@@ -51,7 +51,10 @@ impl Allowance {
     /// None where a device cannot take a single step of the scene.
     pub fn new(device: &DeviceInfo, scene: &Packed) -> Option<Self> {
         if !stops_early(device) {
-            let samples = (LONG_LANE / (u64::from(scene.max_bounces) + 1)).max(1);
+            // A step that asks every one of many lamps is as long as that many steps.
+            let rays = u64::from(scene.strategy.shadow_rays()).max(1);
+            let steps = (u64::from(scene.max_bounces) + 1).saturating_mul(rays);
+            let samples = (LONG_LANE / steps).max(1);
             return Some(Self {
                 steps: u32::MAX,
                 samples: 1 << samples.ilog2(),
@@ -85,15 +88,16 @@ impl Allowance {
 
     /// On a software driver, where lanes count their iterations.
     fn in_tree(scene: &Packed) -> Option<Self> {
-        let lamps = scene.lamps.len() as u64;
+        let strategy = &scene.strategy;
         // A lane that stops finishes its step: one more look at each lamp.
-        let last_step = lamps + 64;
+        let last_step = u64::from(strategy.light_loops) + 64;
         let iterations = (SOFTWARE_ITERATIONS / LANES).checked_sub(last_step)?;
         // A guess at the iterations of a ray: few of the rays that a path may take are taken, and few
         // pieces have to be traced again.
         let tree = &scene.hierarchy.as_ref()?.tree;
         let of_ray = tree.outside.len() as u64 + 4 + 3 * u64::from(tree.nodes.len().ilog2()) / 2;
-        let rays = (u64::from(scene.max_bounces) + 1).min(9) * (1 + lamps);
+        let rays =
+            (u64::from(scene.max_bounces) + 1).min(9) * (1 + u64::from(strategy.shadow_rays()));
         let samples = (iterations / (of_ray * rays)).clamp(1, u64::from(RUN_LENGTH));
         Some(Self {
             steps: u32::MAX,
@@ -105,18 +109,19 @@ impl Allowance {
     }
 }
 
-/// The most loop iterations of one step: its own, and those over the bodies for the ray and for
-/// each lamp's shadow ray. A loop's last look at its condition counts as one. Baked bodies take none.
+/// The most loop iterations of one step: its own, those over the lamps, and those over the bodies for the
+/// ray and for each shadow ray. A loop's last look at its condition counts as one. Baked bodies take none.
 fn iterations(scene: &Packed) -> u64 {
     let bodies = match scene.traversal {
         Traversal::Baked => 0,
         _ => (scene.spheres.len() + scene.boxes.len()) as u64 + 3,
     };
-    let lamps = match scene.strategy.light_strategy {
-        LightStrategy::Hit => 0,
-        _ => scene.lamps.len() as u64,
+    let strategy = &scene.strategy;
+    let (loops, shadow_rays) = match strategy.light_strategy {
+        LightStrategy::Hit => (0, 0),
+        _ => (strategy.light_loops, strategy.shadow_rays()),
     };
-    2 + bodies + lamps * (1 + bodies)
+    2 + bodies + u64::from(loops) + u64::from(shadow_rays) * bodies
 }
 
 /// The pieces of a block, of at most `most` samples each. They end where the sample index is a multiple of

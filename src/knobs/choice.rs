@@ -130,6 +130,20 @@ choice! {
 }
 
 choice! {
+    /// Which lamps a hit sends shadow rays to.
+    LightChoice, "LIGHT_CHOICE" {
+        /// To every lamp, as in the paper.
+        All = "all",
+        /// To one, each as likely as any other.
+        Uniform = "uniform",
+        /// To one, by what the lamps send out (alias table: Walker 1977, Vose 1991).
+        Power = "power",
+        /// To one, by a tree of lamps walked from where the light arrives (Conty Estevez and Kulla 2018).
+        Tree = "tree",
+    }
+}
+
+choice! {
     /// What surfaces do with direct light.
     LightDirect, "LIGHT_DIRECT" {
         /// What their scattering says.

@@ -54,6 +54,7 @@ pub struct Light {
     pub weight_radius: Option<f64>,
     pub pole: Pole,
     pub strategy: LightStrategy,
+    pub choice: LightChoice,
     pub direct: LightDirect,
 }
 
@@ -119,6 +120,7 @@ impl Settings {
                 weight_radius: value("light.weight_radius").optional(),
                 pole: pole(&value("light.pole")),
                 strategy: choice(&value("light.strategy")),
+                choice: choice(&value("light.choice")),
                 direct: choice(&value("light.direct")),
             },
             scatter: ScatterSettings {

@@ -171,6 +171,8 @@ pub static KNOBS: &[Knob] = &[
     knob("light.pole", Pole, "", three(0.0, 0.0, 1.0), "z axis of the first two samplers: a direction, or towards the receiver"),
     knob("light.strategy", Name(LightStrategy::NAMES), "", presets(["sample", "sample", "mis", "mis"]),
         "which rays find the lamps: shadow rays, hits of scattered rays, or both by the power heuristic"),
+    knob("light.choice", Name(LightChoice::NAMES), "", presets(["all", "all", "all", "all"]),
+        "which lamps a hit sends shadow rays to: every one, or one that is drawn: evenly, by power, or by a tree that knows power, distance and horizon"),
     knob("light.direct", Name(LightDirect::NAMES), "", presets(["lambert", "lambert", "bsdf", "bsdf"]),
         "what direct light does: what the surface's scattering says, or Lambert everywhere, as in the paper"),
 

@@ -1,12 +1,16 @@
 //! From a scene to flat buffers: what a device needs, with no device in it.
 
 mod guides;
+mod alias;
+mod choice;
 mod layout;
+mod light_tree;
 mod rect;
 mod strategy;
 mod traversal;
 mod tree;
 
+pub use choice::{ChoiceEntry, Choices};
 pub use layout::*;
 pub use rect::Rect;
 pub use strategy::{LastRay, RUN_LENGTH, Strategy};
@@ -34,6 +38,8 @@ pub struct Packed {
     /// Unrotated boxes first.
     pub boxes: Vec<Cuboid>,
     pub lamps: Vec<Lamp>,
+    /// What one of the lamps is chosen by.
+    pub choice: Arc<Choices>,
     /// The bodies once more where rays find them by a tree.
     pub hierarchy: Option<Arc<Hierarchy>>,
     pub strategy: Strategy,
@@ -60,6 +66,8 @@ impl Packed {
             rotated,
             lamps.len() as u32,
         );
+        let choice = Choices::new(&settings.light, &lamps);
+        strategy.light_loops = choice.loops;
         let by_tree = traversal == Traversal::Bvh;
         let camera = pack_camera(&scene.camera, settings.image.width, settings.image.height);
         let view = camera.forward.into();
@@ -82,6 +90,7 @@ impl Packed {
             spheres,
             boxes,
             lamps,
+            choice: Arc::new(choice),
             hierarchy: hierarchy.map(Arc::new),
             strategy,
             traversal,

@@ -28,6 +28,7 @@ pub struct Strategy {
     pub light_sampler: LightSampler,
     pub light_weight: LightWeight,
     pub light_strategy: LightStrategy,
+    pub light_choice: LightChoice,
     pub light_direct: LightDirect,
     pub pole_at_receiver: bool,
     pub scatter_diffuse: ScatterDiffuse,
@@ -46,6 +47,8 @@ pub struct Strategy {
     pub box_count: u32,
     pub rotated_box_count: u32,
     pub lamp_count: u32,
+    /// Iterations of the loops over lamps that one step of a path may take.
+    pub light_loops: u32,
     /// Of the bodies, those that stand outside the tree; 0 without one.
     pub outside_sphere_count: u32,
     pub outside_box_count: u32,
@@ -62,6 +65,7 @@ impl Strategy {
             light_sampler: settings.light.sampler,
             light_weight: settings.light.weight,
             light_strategy: settings.light.strategy,
+            light_choice: settings.light.choice,
             light_direct: settings.light.direct,
             pole_at_receiver: settings.light.pole == Pole::Receiver,
             scatter_diffuse: settings.scatter.diffuse,
@@ -82,19 +86,29 @@ impl Strategy {
             box_count: boxes,
             rotated_box_count: rotated,
             lamp_count: lamps,
+            light_loops: lamps,
             outside_sphere_count: 0,
             outside_box_count: 0,
             outside_rotated_count: 0,
         }
     }
 
+    /// Shadow rays that a hit may send.
+    pub fn shadow_rays(&self) -> u32 {
+        match self.light_choice {
+            LightChoice::All => self.lamp_count,
+            _ => self.lamp_count.min(1),
+        }
+    }
+
     /// Names and values of all override constants of all kernels.
-    pub fn overrides(&self) -> [(&'static str, u32); 24] {
-        [
+    pub fn overrides(&self) -> Vec<(&'static str, u32)> {
+        vec![
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
             ("LIGHT_WEIGHT", self.light_weight.index()),
             ("LIGHT_STRATEGY", self.light_strategy.index()),
+            ("LIGHT_CHOICE", self.light_choice.index()),
             ("LIGHT_DIRECT", self.light_direct.index()),
             ("POLE_AT_RECEIVER", u32::from(self.pole_at_receiver)),
             ("SCATTER_DIFFUSE", self.scatter_diffuse.index()),
@@ -112,6 +126,7 @@ impl Strategy {
             ("BOX_COUNT", self.box_count),
             ("ROTATED_BOX_COUNT", self.rotated_box_count),
             ("LAMP_COUNT", self.lamp_count),
+            ("LIGHT_LOOPS", self.light_loops),
             ("OUTSIDE_SPHERE_COUNT", self.outside_sphere_count),
             ("OUTSIDE_BOX_COUNT", self.outside_box_count),
             ("OUTSIDE_ROTATED_COUNT", self.outside_rotated_count),

@@ -3,6 +3,7 @@
 
 use super::{Task, plan};
 use crate::error::{Error, Result};
+use crate::knobs::LightChoice;
 use crate::pack::Tally;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,6 +24,9 @@ const SCOUTS: u64 = 56 + 32;
 const RANDOMISED: u64 = 24;
 /// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.
 const BODY: u64 = 1024;
+/// Of a lamp, one of which is chosen: its pair of the light tree while that is built, as packed, and on the
+/// device. The alias table takes less.
+const CHOSEN_LAMP: u64 = 512;
 /// Results of a block are in the device's memory and in the host's, of several blocks at a time.
 const TALLY_COPIES: u64 = 10;
 
@@ -35,6 +39,10 @@ const THREAD: u64 = 80 << 20;
 pub fn memory_estimate(task: &Task) -> u64 {
     let pixels = task.region.area() as u64;
     let bodies = (task.scene.spheres.len() + task.scene.boxes.len()) as u64;
+    let lamps = match task.scene.settings.light.choice {
+        LightChoice::All => 0,
+        _ => task.scene.lamps().count() as u64,
+    };
     let randomised = task.scene.settings.render.randomisation().is_some();
     let of_pixel = PIXEL
         + if task.features { FEATURES } else { 0 }
@@ -42,7 +50,8 @@ pub fn memory_estimate(task: &Task) -> u64 {
         + if randomised { RANDOMISED } else { 0 }
         + if task.terms().is_some() { SCOUTS } else { 0 };
     let tallies = plan::most_tallies(task.region, &task.samples) * size_of::<Tally>() as u64;
-    FIXED + bodies * BODY + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
+    let of_scene = bodies * BODY + lamps * CHOSEN_LAMP;
+    FIXED + of_scene + pixels.saturating_mul(of_pixel) + tallies * TALLY_COPIES
 }
 
 /// Refuses a render that this machine, or the control group that the program runs in, has too little memory for.

@@ -7,6 +7,9 @@ use crate::pack::{self, Packed, Traversal};
 /// Uniform buffers of this many bytes work on every device; larger scenes go into storage buffers.
 const UNIFORM_BYTES: usize = 16 * 1024;
 
+/// Stands for the array where no lamp is chosen.
+const NO_CHOICE: &str = "fn choice_at(index: u32) -> vec4<u32> {\n    return vec4<u32>(0u);\n}\n";
+
 /// Lengths of the scene's arrays on the device, which the shader's declarations depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SceneArrays {
@@ -19,6 +22,8 @@ pub struct SceneArrays {
     /// Bodies outside the tree.
     pub outside_spheres: usize,
     pub outside_boxes: usize,
+    /// Entries of what a lamp is chosen by; 0 where each has its own shadow ray.
+    pub choice: usize,
 }
 
 /// One array of the scene: the name of its accessor, its WGSL element type, its length, and the
@@ -77,6 +82,7 @@ impl SceneArrays {
                 nodes,
                 outside_spheres: spheres,
                 outside_boxes: boxes,
+                choice: packed.choice.entries.len(),
             }
         };
         let rounded = lengths(|count| count.max(1).next_power_of_two());
@@ -95,11 +101,12 @@ impl SceneArrays {
         }
     }
 
-    fn small(&self) -> [SceneArray; 3] {
+    fn small(&self) -> [SceneArray; 4] {
         [
             SceneArray::new::<pack::Material>("material_at", "Material", self.materials),
             SceneArray::new::<pack::Cuboid>("box_at", "Box", self.boxes),
             SceneArray::new::<pack::Lamp>("lamp_at", "Lamp", self.lamps),
+            SceneArray::new::<pack::ChoiceEntry>("choice_at", "vec4<u32>", self.choice),
         ]
     }
 
@@ -127,7 +134,10 @@ impl SceneArrays {
             true => [&outside[..], &small].concat(),
         };
         match by_tree {
-            _ if bytes(&whole) <= UNIFORM_BYTES => whole,
+            _ if bytes(&whole) <= UNIFORM_BYTES => {
+                let held = whole.into_iter().filter(|array| array.length > 0);
+                held.collect()
+            }
             false => Vec::new(),
             true => outside.to_vec(),
         }
@@ -183,6 +193,9 @@ impl SceneArrays {
             if is_here(array) {
                 text += &array.accessor(&format!("{name}_"));
             }
+        }
+        if self.choice == 0 {
+            text += NO_CHOICE;
         }
         text
     }

@@ -2,7 +2,7 @@
 //! boxes, two lamps, a box that shines and a sky. Every setting that claims no bias must give the picture
 //! of one long render.
 
-use super::cross::{DIFFUSE, ORDERS, POLES, RULES, SAMPLERS, STRATEGIES};
+use super::cross::{CHOICES, DIFFUSE, ORDERS, POLES, RULES, SAMPLERS, STRATEGIES};
 use crate::support::bench::{Bench, benches};
 use crate::support::gate::{Case, Family, Form, measure_mean};
 use std::sync::LazyLock;
@@ -74,6 +74,7 @@ fn settings(bench: Bench) -> Vec<Case> {
             let case = preset(["corrected", "reference"][s % 2])
                 .set("light.sampler", sampler)
                 .set("light.strategy", strategy)
+                .set("light.choice", CHOICES[(s + t + 2 * bench as usize) % 4])
                 .set("light.pole", POLES[(s + t) % 3])
                 .set("scatter.diffuse", DIFFUSE[(s / 2 + t) % 2])
                 .set("interruption.rule", RULES[(s + t + bench as usize) % 4])

@@ -12,6 +12,7 @@ use lampray::knobs::*;
 
 pub const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
 pub const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
+pub const CHOICES: [&str; 4] = ["all", "uniform", "power", "tree"];
 pub const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
 pub const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
 pub const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
@@ -33,6 +34,7 @@ impl Row {
         case.set("light.sampler", SAMPLERS[self.sampler])
             .set("light.pole", POLES[self.pole])
             .set("light.strategy", STRATEGIES[self.strategy])
+            .set("light.choice", self.pick(&CHOICES))
             .set("interruption.rule", RULES[self.rule])
             .set("interruption.order", ORDERS[self.order])
             .set("interruption.start", 0)
@@ -175,6 +177,7 @@ fn every_value_of_the_knobs_is_crossed() {
     }
     check(LightSampler::ALL, &SAMPLERS);
     check(LightStrategy::ALL, &STRATEGIES);
+    check(LightChoice::ALL, &CHOICES);
     check(InterruptionRule::ALL, &RULES);
     check(InterruptionOrder::ALL, &ORDERS);
     check(ScatterDiffuse::ALL, &DIFFUSE);

@@ -6,7 +6,7 @@ use super::room::{LAMPS, Room, TRUTH, Triple};
 use crate::support::bench::{Bench, benches};
 use crate::support::gate::{Family, Form, measure_mean};
 
-const STRATEGIES: [&[&str]; 4] = [
+const STRATEGIES: [&[&str]; 6] = [
     &["light.strategy=mis"],
     &["light.strategy=sample"],
     &["light.strategy=hit"],
@@ -15,6 +15,8 @@ const STRATEGIES: [&[&str]; 4] = [
         "light.sampler=uniform-angles",
         "render.preset=corrected",
     ],
+    &["light.strategy=mis", "light.choice=tree"],
+    &["light.strategy=sample", "light.choice=power"],
 ];
 
 fn both() -> Room {

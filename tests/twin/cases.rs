@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3, Vec4};
 use lampray::cpu::r#box::{box_face, intersect_box, safe_inverse};
 use lampray::cpu::interruption::{survival_probability, survival_weight};
 use lampray::cpu::light::{LampHit, light_inverse_density, power_heuristic, sample_light};
+use lampray::cpu::light_tree::{LightPair, WHOLE_SHARE, first_share};
 use lampray::cpu::maths::*;
 use lampray::cpu::random::{random_bits, random_key, random_unit};
 use lampray::cpu::ray::{Crossing, Ray};
@@ -48,6 +49,7 @@ pub fn all() -> Vec<Case> {
         cuboid(),
         face(),
         finite(),
+        first_share_case(),
     ];
     let films = Filter::ALL.iter().map(|&filter| film(filter));
     let scatters = scatter_strategies();
@@ -815,4 +817,80 @@ fn finite() -> Case {
         Box::new(twin),
         absolute(0.0),
     )
+}
+
+/// Two groups of any size and power around a point: it is far from them, near, or inside of one.
+fn first_share_case() -> Case {
+    let inputs = many(17, |place, stream| {
+        let mut ball = |near: bool| {
+            let radius = stream.scale(1e-3, 1e2);
+            let away = match near {
+                true => radius * stream.between(0.0, 1.5),
+                false => radius * stream.scale(1.5, 1e3),
+            };
+            four(stream.direction().map(|x| (away * x) as f32), radius as f32)
+        };
+        let (a, b) = (ball(place % 4 == 0), ball(place % 7 == 0));
+        let powers = [1.0, [0.0, 1.0, stream.scale(1e-6, 1.0)][place % 3] as f32];
+        ProbeInput {
+            a,
+            b,
+            c: [0.0, 0.0, 0.0, powers[place % 2]],
+            d: four(direction(place, stream), powers[1 - place % 2]),
+        }
+    });
+    let twin = |input: &ProbeInput| {
+        let pair = LightPair {
+            first: Vec4::from(input.a),
+            second: Vec4::from(input.b),
+            power: [input.c[3], input.d[3]],
+            link: [0; 2],
+        };
+        eight(&[&[first_share(&pair, xyz(input.c), xyz(input.d)) as f32]])
+    };
+    let tolerance = |input: &ProbeInput, wanted: &[f32; 8]| {
+        let whole = f64::from(WHOLE_SHARE);
+        let share = f64::from(wanted[0]) / whole;
+        let relative = [input.a, input.b].map(|ball| nearness_error(ball, xyz(input.d)));
+        let shares = share * (1.0 - share) * (relative[0] + relative[1]);
+        [
+            whole * (shares + 8.0 * UNIT),
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ]
+    };
+    case(
+        "first_share",
+        Probe::FirstShare,
+        inputs,
+        Box::new(twin),
+        Box::new(tolerance),
+    )
+}
+
+/// How far a group's cosine may be off, for its size: two roots of differences that rounding has moved by a
+/// few units, each times the other angle's cosine or sine.
+fn nearness_error(ball: [f32; 4], normal: Vec3) -> f64 {
+    let (center, radius) = (xyz(ball).as_dvec3(), f64::from(ball[3]));
+    let inverse = 1.0 / center.length().max(radius);
+    let cosine = center.dot(normal.as_dvec3()) * inverse;
+    let cone_sine = radius * inverse;
+    let off = 16.0 * UNIT;
+    let root_error = |sine: f64| {
+        let square = (1.0 - sine * sine).max(0.0);
+        (square + off).sqrt() - (square - off).max(0.0).sqrt()
+    };
+    let moved = cosine.abs() * root_error(cone_sine) + cone_sine * root_error(cosine) + off;
+    let cone_cosine = (1.0 - cone_sine * cone_sine).max(0.0).sqrt();
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let highest = match cosine >= cone_cosine {
+        true => 1.0,
+        false => cosine * cone_cosine + sine * cone_sine,
+    };
+    moved / highest.max(0.015625) + 2.0 * off
 }
