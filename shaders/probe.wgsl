@@ -50,6 +50,11 @@ fn probe_pole() -> Basis {
     return basis_around(normalize(vec3<f32>(0.3, -0.5, 0.8)));
 }
 
+// Of the lit surface, by two numbers of the unit square.
+fn probe_normal(in: Input) -> vec3<f32> {
+    return unit_sphere(in.d.zw);
+}
+
 fn probe(in: Input) -> Output {
     let zero = vec4<f32>(0.0);
     switch job.function {
@@ -98,7 +103,7 @@ fn probe(in: Input) -> Output {
             return Output(vec4<f32>(value, scatter_density(material, in.a.xyz, in.b.xyz, in.c.xyz)), zero);
         }
         case PROBE_SAMPLE_LIGHT: {
-            let light = sample_light(probe_lamp(in), probe_pole(), in.b.xyz, in.d.x == 1.0, in.c);
+            let light = sample_light(probe_lamp(in), probe_pole(), in.b.xyz, probe_normal(in), in.d.x == 1.0, in.c);
             return Output(vec4<f32>(light.direction, light.distance), vec4<f32>(light.weight, light.inverse_density, 0.0, 0.0));
         }
         case PROBE_LIGHT_DENSITY: {
@@ -106,7 +111,7 @@ fn probe(in: Input) -> Output {
             let to_point = lamp.center + lamp.radius * in.c.xyz - in.b.xyz;
             let reach = length(to_point);
             let density = light_inverse_density(
-                lamp, probe_pole(), in.b.xyz, in.d.x == 1.0, to_point / reach, reach, in.c.xyz);
+                lamp, probe_pole(), in.b.xyz, probe_normal(in), in.d.x == 1.0, to_point / reach, reach, in.c.xyz);
             return Output(vec4<f32>(density, power_heuristic(in.d.y), 0.0, 0.0), zero);
         }
         case PROBE_SURVIVAL: {

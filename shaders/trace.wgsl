@@ -60,6 +60,8 @@ struct Path {
     vertex: u32,
     // Of the direction the ray was scattered into; 0 where it has none.
     density: f32,
+    // Normal of the surface that the ray left, where a sampler of lamps asks for it.
+    normal: vec3<f32>,
     rays: u32,
     alive: bool,
 }
@@ -68,7 +70,7 @@ fn start_path(pixel: vec2<u32>, sample: vec2<u32>) -> Path {
     let key = random_key(job.seed, pixel, sample);
     let film = sample_film(pixel, random_unit(key, 0u, 0u).xy);
     let ray = Ray(vec3<f32>(0.0), camera_direction(job.camera, film), 0u, false);
-    return Path(key, ray, vec3<f32>(1.0), vec3<f32>(0.0), 0u, 0.0, 0u, true);
+    return Path(key, ray, vec3<f32>(1.0), vec3<f32>(0.0), 0u, 0.0, vec3<f32>(0.0), 0u, true);
 }
 
 // Whether what a ray finds by itself counts. As published only what the camera sees does.
@@ -88,7 +90,7 @@ fn lamp_hit_weight(path: Path, surface: Surface, distance: f32) -> f32 {
     let lamp = lamp_at(surface.lamp - 1u);
     let outward = select(surface.normal, -surface.normal, surface.inside);
     let inverse_density = light_inverse_density(
-        lamp, job.pole, path.ray.origin, surface.inside, path.ray.direction, distance, outward);
+        lamp, job.pole, path.ray.origin, path.normal, surface.inside, path.ray.direction, distance, outward);
     return power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30));
 }
 
@@ -116,7 +118,7 @@ fn light_from(lamp: Lamp, path: Path, surface: Surface, origin: vec3<f32>, u: ve
     let incoming = path.ray.direction;
     let own = surface.body == lamp.body;
     let inside = select(distance(lamp.center, origin) < lamp.radius, surface.inside, own);
-    let light = sample_light(lamp, job.pole, origin, inside, u);
+    let light = sample_light(lamp, job.pole, origin, surface.normal, inside, u);
     let density = scatter_density(material, surface.normal, incoming, light.direction);
     var reflected = evaluate_lambert(material, surface.normal, light.direction);
     if LIGHT_DIRECT == LIGHT_DIRECT_BSDF {
@@ -160,6 +162,9 @@ fn scatter_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, 
     let scattered = sample_scatter(material_at(surface.material), surface.normal, (*path).ray.direction, u);
     (*path).throughput *= scattered.weight;
     (*path).density = scattered.density;
+    if LIGHT_SAMPLER == LIGHT_SAMPLER_PROJECTED_CAP {
+        (*path).normal = surface.normal;
+    }
     (*path).ray = Ray(origin, scattered.direction, surface.body, surface.inside);
     (*path).vertex += 1u;
     let useful = (*path).vertex < job.max_bounces || last_ray_counts(scattered);

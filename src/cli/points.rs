@@ -43,9 +43,10 @@ pub(crate) struct Command {
     /// Scatter: sigma of the directional angle, radians
     #[arg(long, default_value_t = 0.3, value_name = "RADIANS")]
     spread: f64,
-    /// Scatter: angle between the arriving ray and the normal, degrees
-    #[arg(long, default_value_t = 45.0, value_name = "DEGREES")]
-    incidence: f64,
+    /// Scatter: angle between the arriving ray and the normal, degrees (45). Light: angle between the receiver's
+    /// normal and the line to the lamp's centre, which light.sampler=projected-cap asks for (0)
+    #[arg(long, value_name = "DEGREES")]
+    incidence: Option<f64>,
     #[command(flatten)]
     knobs: KnobOptions,
     #[command(flatten)]
@@ -57,11 +58,12 @@ impl Command {
         let kind = match self.sampler {
             Sampler::Light => Kind::Light {
                 distance: within("--distance", self.distance, 0.0, 1e6)?,
+                incidence: within("--incidence", self.incidence.unwrap_or(0.0), 0.0, 180.0)?,
             },
             Sampler::Scatter => Kind::Scatter {
                 scatter: points::scatter(&self.scatter)?,
                 spread: within("--spread", self.spread, 1e-12, 1e12)?,
-                incidence: within("--incidence", self.incidence, 0.0, 89.999)?,
+                incidence: within("--incidence", self.incidence.unwrap_or(45.0), 0.0, 89.999)?,
             },
         };
         let request = Request {

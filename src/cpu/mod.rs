@@ -6,6 +6,7 @@ pub mod r#box;
 pub mod bvh;
 pub mod camera;
 pub mod canary;
+pub mod cap;
 pub mod four;
 pub mod interruption;
 pub mod light;

@@ -23,6 +23,8 @@ struct Path {
     vertex: u32,
     /// Of the direction the ray was scattered into; 0 where it has none.
     density: f32,
+    /// Normal of the surface that the ray left.
+    normal: Vec3,
     rays: u32,
     alive: bool,
 }
@@ -69,6 +71,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             radiance: Vec3::ZERO,
             vertex: 0,
             density: 0.0,
+            normal: Vec3::ZERO,
             rays: 0,
             alive: true,
         }
@@ -101,7 +104,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             outward,
         };
         let inverse_density =
-            light_inverse_density(strategy, lamp, self.pole, path.ray.origin, hit);
+            light_inverse_density(strategy, lamp, self.pole, path.ray.origin, path.normal, hit);
         power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30))
     }
 
@@ -140,7 +143,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         // Here and below whole numbers wrap, as WGSL's do: asking whether they would costs 3 % of the time.
         let slot = (index as u32).wrapping_add(1);
         let u = Vec4::from(random_unit(path.key, path.vertex.wrapping_add(1), slot));
-        let light = sample_light(strategy, lamp, self.pole, origin, inside, u);
+        let light = sample_light(strategy, lamp, self.pole, origin, surface.normal, inside, u);
         let density = scatter_density(
             strategy,
             material,
@@ -208,6 +211,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         );
         path.throughput *= scattered.weight;
         path.density = scattered.density;
+        path.normal = surface.normal;
         path.ray = Ray {
             origin,
             direction: scattered.direction,

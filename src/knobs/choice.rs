@@ -100,6 +100,22 @@ choice! {
         Gaussian = "gaussian",
         /// Uniform over the cone of directions under which the lamp is seen.
         Cone = "cone",
+        /// Uniform by area over the half that the receiver can see.
+        FacingCap = "facing-cap",
+        /// Case 1 with its pole at the receiver, on the half that it can see.
+        FacingAngles = "facing-angles",
+        /// Uniform by projected solid angle: each direction counts alike for a matt receiver.
+        ProjectedCap = "projected-cap",
+    }
+}
+
+choice! {
+    /// When a drawn lamp point counts.
+    LightTest, "LIGHT_TEST" {
+        /// When the point itself is seen.
+        Point = "point",
+        /// When the lamp is the first body in its direction, as in the base code.
+        Object = "object",
     }
 }
 

@@ -51,6 +51,7 @@ pub struct Light {
     pub weight_radius: Option<f64>,
     pub pole: Pole,
     pub strategy: LightStrategy,
+    pub test: LightTest,
     pub direct: LightDirect,
 }
 
@@ -114,6 +115,7 @@ impl Settings {
                 weight_radius: value("light.weight_radius").optional(),
                 pole: pole(&value("light.pole")),
                 strategy: choice(&value("light.strategy")),
+                test: choice(&value("light.test")),
                 direct: choice(&value("light.direct")),
             },
             scatter: ScatterSettings {

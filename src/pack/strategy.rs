@@ -24,6 +24,7 @@ pub struct Strategy {
     pub filter: Filter,
     pub light_sampler: LightSampler,
     pub light_weight: LightWeight,
+    pub light_test: LightTest,
     pub light_strategy: LightStrategy,
     pub light_direct: LightDirect,
     pub pole_at_receiver: bool,
@@ -51,6 +52,7 @@ impl Strategy {
             filter: settings.image.filter,
             light_sampler: settings.light.sampler,
             light_weight: settings.light.weight,
+            light_test: settings.light.test,
             light_strategy: settings.light.strategy,
             light_direct: settings.light.direct,
             pole_at_receiver: settings.light.pole == Pole::Receiver,
@@ -71,11 +73,12 @@ impl Strategy {
     }
 
     /// Names and values of all override constants of all kernels.
-    pub fn overrides(&self) -> [(&'static str, u32); 19] {
+    pub fn overrides(&self) -> [(&'static str, u32); 20] {
         [
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
             ("LIGHT_WEIGHT", self.light_weight.index()),
+            ("LIGHT_TEST", self.light_test.index()),
             ("LIGHT_STRATEGY", self.light_strategy.index()),
             ("LIGHT_DIRECT", self.light_direct.index()),
             ("POLE_AT_RECEIVER", u32::from(self.pole_at_receiver)),

@@ -14,6 +14,7 @@ library!(
     "bvh",
     "camera",
     "canary",
+    "cap",
     "features",
     "interruption",
     "light",

@@ -71,6 +71,7 @@ fn constants() -> String {
         Filter::wgsl_constants(),
         LightSampler::wgsl_constants(),
         LightWeight::wgsl_constants(),
+        LightTest::wgsl_constants(),
         LightStrategy::wgsl_constants(),
         LightDirect::wgsl_constants(),
         ScatterDiffuse::wgsl_constants(),

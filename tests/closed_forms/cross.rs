@@ -2,7 +2,7 @@
 //!
 //! [`full`] is every sampler with every strategy, rule and way to scatter; [`covering`] is sixteen of
 //! them in which every pair of values stands, by Bush's orthogonal array OA(16, 5, 4, 2) (Bush
-//! 1952, "Orthogonal arrays of index unity"). [`crossed`] is the full cross on the twin and the covering
+//! 1952, "Orthogonal arrays of index unity"), and the array's rows once more for the last samplers. [`crossed`] is the full cross on the twin and the covering
 //! one on a graphics device, whose driver compiles each choice for a tenth of a second. Either way
 //! every value meets every device. Tests of interruption start at the camera's hit.
 
@@ -10,7 +10,15 @@ use crate::support::bench::Bench;
 use crate::support::gate::{Case, Family};
 use lampray::knobs::*;
 
-pub const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
+pub const SAMPLERS: [&str; 7] = [
+    "uniform-angles",
+    "inverse-cosine",
+    "gaussian",
+    "cone",
+    "facing-cap",
+    "facing-angles",
+    "projected-cap",
+];
 pub const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
 pub const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
 pub const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
@@ -51,11 +59,11 @@ impl Row {
     }
 }
 
-/// All 96 of sampler, strategy, rule and way to scatter, and those of the first sampler, whose law
+/// All 168 of sampler, strategy, rule and way to scatter, and those of the first sampler, whose law
 /// turns with the pole, with the pole at the receiver too. Poles and orders go round beside them.
 fn full() -> Vec<Row> {
     let mut all = Vec::new();
-    for index in 0..120 {
+    for index in 0..192 {
         let (variant, strategy, rule, diffuse) =
             (index / 24, index / 8 % 3, index / 2 % 4, index % 2);
         let poles = [
@@ -63,10 +71,13 @@ fn full() -> Vec<Row> {
             (strategy + rule) % 3,
             (strategy + diffuse) % 3,
             (rule + diffuse) % 3,
+            0,
+            0,
+            0,
             1,
         ];
         all.push(Row {
-            sampler: variant % 4,
+            sampler: variant % SAMPLERS.len(),
             pole: poles[variant],
             strategy,
             rule,
@@ -77,15 +88,15 @@ fn full() -> Vec<Row> {
     all
 }
 
-/// Sixteen rows with every pair of values. Columns are a, b and a + k b over the field of four
+/// Twenty-eight rows with every pair of values: sixteen, and the twelve of the last samplers. Columns are a, b and a + k b over the field of four
 /// elements, k = 1, w, w^2; the last one's two bits are two knobs. The second device has other triples.
 pub fn covering(bench: Bench) -> Vec<Row> {
     const BY_W: [usize; 4] = [0, 2, 3, 1];
     let row = |index: usize| {
-        let (a, b) = (index / 4, index % 4);
+        let (a, b) = (index / 4 % 4, index % 4);
         let last = a ^ BY_W[BY_W[b]];
         Row {
-            sampler: a,
+            sampler: if index < 16 { a } else { a + 3 },
             pole: [0, 1, 2, 1][a ^ BY_W[b]],
             strategy: [0, 1, 2, 1][a ^ b ^ (bench as usize)],
             rule: b,
@@ -93,7 +104,7 @@ pub fn covering(bench: Bench) -> Vec<Row> {
             order: last / 2,
         }
     };
-    (0..16).map(row).collect()
+    (0..16).chain(20..32).map(row).collect()
 }
 
 /// The full cross on the twin, the covering one on a graphics device.
@@ -124,7 +135,7 @@ fn values(choice: &Row) -> [usize; 6] {
     [sampler, strategy, rule, diffuse, order, pole]
 }
 
-const SIZES: [usize; 6] = [4, 3, 4, 2, 2, 3];
+const SIZES: [usize; 6] = [7, 3, 4, 2, 2, 3];
 
 fn count<T: std::hash::Hash + Eq>(choices: &[Row], of: impl Fn([usize; 6]) -> T) -> usize {
     let all: std::collections::HashSet<_> = choices.iter().map(|one| of(values(one))).collect();
@@ -148,7 +159,7 @@ fn the_covering_cross_holds_every_pair() {
 #[test]
 fn the_full_cross_holds_all_of_them() {
     let all = full();
-    assert_eq!(count(&all, |v| [v[0], v[1], v[2], v[3]]), 96);
+    assert_eq!(count(&all, |v| [v[0], v[1], v[2], v[3]]), 168);
     let aimed: Vec<_> = all
         .iter()
         .filter(|c| (c.sampler, c.pole) == (0, 1))

@@ -5,6 +5,7 @@
 
 pub mod bench;
 pub mod chance;
+pub mod form;
 pub mod gate;
 pub mod quadrature;
 pub mod same;
@@ -51,6 +52,7 @@ pub fn strategy() -> Strategy {
         filter: Filter::Box,
         light_sampler: LightSampler::Cone,
         light_weight: LightWeight::Pdf,
+        light_test: LightTest::Point,
         light_strategy: LightStrategy::Mis,
         light_direct: LightDirect::Bsdf,
         pole_at_receiver: false,

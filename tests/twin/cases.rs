@@ -536,14 +536,20 @@ fn evaluate_scatter_case(of: Strategy) -> Case {
 fn light_strategies() -> impl Iterator<Item = Strategy> {
     let samplers = LightSampler::ALL.iter();
     let weighted = samplers.flat_map(|&a| LightWeight::ALL.iter().map(move |&b| (a, b)));
-    weighted.flat_map(|(light_sampler, light_weight)| {
+    let points = weighted.flat_map(|(light_sampler, light_weight)| {
         [false, true].map(|pole_at_receiver| Strategy {
             light_sampler,
             light_weight,
             pole_at_receiver,
             ..strategy()
         })
-    })
+    });
+    let objects = LightSampler::ALL.iter().map(|&light_sampler| Strategy {
+        light_sampler,
+        light_test: LightTest::Object,
+        ..strategy()
+    });
+    points.chain(objects)
 }
 
 fn light_name(strategy: &Strategy) -> String {
@@ -553,8 +559,8 @@ fn light_name(strategy: &Strategy) -> String {
         "axis"
     };
     format!(
-        "{} {} {pole}",
-        strategy.light_sampler, strategy.light_weight
+        "{} {} {pole} {}",
+        strategy.light_sampler, strategy.light_weight, strategy.light_test
     )
 }
 
@@ -567,6 +573,11 @@ fn lamp_of(input: &ProbeInput) -> Lamp {
         weight_radius: input.b[3],
         ..Lamp::default()
     }
+}
+
+/// The lit surface's normal.
+fn normal_of(input: &ProbeInput) -> Vec3 {
+    unit_sphere(Vec2::new(input.d[2], input.d[3]))
 }
 
 fn pole() -> Basis {
@@ -598,6 +609,9 @@ fn gaussian_error(input: &ProbeInput) -> f64 {
 /// How far the distance to a cone's point may be off: at the lamp's rim the half chord is the root
 /// of a difference of nearly equal numbers.
 fn cone_error(of: &Strategy, input: &ProbeInput) -> f64 {
+    if of.light_sampler == LightSampler::ProjectedCap {
+        return f64::from(input.a[3]) * (16.0 * UNIT).sqrt();
+    }
     if of.light_sampler != LightSampler::Cone {
         return 0.0;
     }
@@ -605,11 +619,25 @@ fn cone_error(of: &Strategy, input: &ProbeInput) -> f64 {
     radius * (16.0 * UNIT / left.sqrt()).min((16.0 * UNIT).sqrt())
 }
 
+/// What a projected direction's errors grow with, given the direction: its weight goes as one over the height above
+/// the horizon, and how much of the lamp that leaves to be seen is told in lamp radii.
+fn grazing(of: &Strategy, input: &ProbeInput, direction: Vec3) -> f64 {
+    if of.light_sampler != LightSampler::ProjectedCap {
+        return 1.0;
+    }
+    let up = f64::from(direction.dot(normal_of(input)));
+    let away = f64::from(xyz(input.a).distance(xyz(input.b)) / input.a[3]);
+    1.0 + 4.0 / up.abs().max(1e-7) + 4.0 * away
+}
+
 fn sample_light_case(of: Strategy) -> Case {
     let inputs = many(13, |place, stream| {
         let (made, _) = lamp_and_origin(place, stream);
+        let c = [0, 1, 2, 3].map(|turn| unit(place, turn, stream));
+        let [z, w] = [(); 2].map(|()| stream.unit() as f32);
         ProbeInput {
-            c: [0, 1, 2, 3].map(|turn| unit(place, turn, stream)),
+            c,
+            d: [made.d[0], 0.0, z, w],
             ..made
         }
     });
@@ -621,6 +649,7 @@ fn sample_light_case(of: Strategy) -> Case {
             &lamp,
             pole(),
             xyz(input.b),
+            normal_of(input),
             inside,
             Vec4::from(input.c),
         );
@@ -634,12 +663,14 @@ fn sample_light_case(of: Strategy) -> Case {
         if of.light_sampler == LightSampler::Gaussian {
             spread *= 1.0 + gaussian_error(input);
         }
-        let direction = 8.0 * UNIT * spread;
+        let grazing = grazing(&of, input, Vec3::new(wanted[0], wanted[1], wanted[2]));
+        let direction = 8.0 * UNIT * spread * grazing.min(64.0);
         // A far point's near side is a difference of two distances.
         let reach = f64::from(wanted[3]).max(1e-3 * f64::from(input.a[3]));
         let cone = cone_error(&of, input);
         let distance = 8.0 * UNIT * spread * reach + cone;
-        let weight = (8.0 * UNIT * spread + 4.0 * cone / reach) * (largest + f64::from(wanted[4]));
+        let weight =
+            (8.0 * UNIT * spread * grazing + 4.0 * cone / reach) * (largest + f64::from(wanted[4]));
         [
             direction, direction, direction, distance, weight, weight, 0.0, 0.0,
         ]
@@ -666,7 +697,12 @@ fn light_density_case(of: Strategy) -> Case {
         let ratio = [0.0, 1.0, 1e15, 1e30, stream.scale(1e-6, 1e6) as f32][place % 5];
         ProbeInput {
             c: outward,
-            d: [f32::from(u8::from(inside)), ratio, 0.0, 0.0],
+            d: [
+                f32::from(u8::from(inside)),
+                ratio,
+                unit(place, 2, stream),
+                unit(place, 3, stream),
+            ],
             ..made
         }
     });
@@ -680,14 +716,20 @@ fn light_density_case(of: Strategy) -> Case {
             distance,
             outward: xyz(input.c),
         };
-        let density = light_inverse_density(&of, &lamp, pole(), xyz(input.b), hit);
+        let density =
+            light_inverse_density(&of, &lamp, pole(), xyz(input.b), normal_of(input), hit);
         eight(&[&[density, power_heuristic(input.d[1])]])
     };
-    let tolerance = |input: &ProbeInput, _: &[f32; 8]| {
+    let tolerance = move |input: &ProbeInput, wanted: &[f32; 8]| {
         let point = xyz(input.a) + input.a[3] * xyz(input.c);
         let (spread, largest) = light_error(input, f64::from(point.distance(xyz(input.b))));
+        let direction = (point - xyz(input.b)).normalize();
+        let (grazing, projected) = match of.light_sampler {
+            LightSampler::ProjectedCap => (grazing(&of, input, direction), f64::from(wanted[0])),
+            _ => (1.0, 0.0),
+        };
         [
-            8.0 * UNIT * spread * largest,
+            8.0 * UNIT * spread * grazing * (largest + projected),
             4.0 * UNIT,
             0.0,
             0.0,
