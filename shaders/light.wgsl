@@ -23,9 +23,10 @@ struct Lamp {
     body: u32,
     // Radius s of the solid-angle weight.
     weight_radius: f32,
+    // 0 for a sphere; 1 + index of a box, whose middle and half diagonal are above.
+    shape: u32,
     _pad0: u32,
     _pad1: u32,
-    _pad2: u32,
 }
 
 struct LightSample {

@@ -114,6 +114,7 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 body,
                 axis_x,
                 axis_y,
+                lamp,
                 axis_z
             }),
         ),
@@ -136,7 +137,8 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 radius,
                 emission,
                 body,
-                weight_radius
+                weight_radius,
+                shape
             }),
         ),
         (

@@ -48,9 +48,9 @@ fn array_sets() -> Vec<SceneArrays> {
 }
 
 /// How many values each knob of a strategy has, in the order that [`spelled`] reads them.
-const VALUES: [usize; 13] = [2, 7, 2, 3, 2, 2, 2, 2, 4, 2, 2, 3, 2];
+const VALUES: [usize; 15] = [2, 7, 2, 3, 2, 2, 2, 2, 4, 2, 2, 3, 2, 2, 2];
 
-fn spelled(row: &[usize; 13]) -> Strategy {
+fn spelled(row: &[usize; 15]) -> Strategy {
     Strategy {
         filter: Filter::ALL[row[0]],
         light_sampler: LightSampler::ALL[row[1]],
@@ -65,13 +65,15 @@ fn spelled(row: &[usize; 13]) -> Strategy {
         interruption_order: InterruptionOrder::ALL[row[10]],
         last_ray: LastRay::ALL[row[11]],
         light_test: LightTest::ALL[row[12]],
+        box_lamps: row[13] == 1,
+        background_lamp: row[14] == 1,
         ..support::strategy()
     }
 }
 
 type Pair = (usize, usize, usize, usize);
 
-fn pairs(row: &[usize; 13]) -> Vec<Pair> {
+fn pairs(row: &[usize; 15]) -> Vec<Pair> {
     let places = (0..row.len()).flat_map(|a| (a + 1..row.len()).map(move |b| (a, b)));
     places.map(|(a, b)| (a, row[a], b, row[b])).collect()
 }
@@ -88,7 +90,7 @@ fn all_pairs() -> HashSet<Pair> {
 
 /// Rows that hold every value of every knob together with every value of every other: whatever two
 /// knobs interact, some row has that pair. Each row is the best of many drawn at random.
-fn covering_rows() -> Vec<[usize; 13]> {
+fn covering_rows() -> Vec<[usize; 15]> {
     let mut left = all_pairs();
     let mut rows = Vec::new();
     let mut stream = Stream::new(1);
@@ -96,7 +98,7 @@ fn covering_rows() -> Vec<[usize; 13]> {
         let candidates: Vec<_> = (0..64)
             .map(|_| VALUES.map(|count| (stream.bits() % count as u64) as usize))
             .collect();
-        let gain = |row: &&[usize; 13]| pairs(row).iter().filter(|p| left.contains(p)).count();
+        let gain = |row: &&[usize; 15]| pairs(row).iter().filter(|p| left.contains(p)).count();
         let best = *candidates.iter().max_by_key(gain).unwrap();
         for pair in pairs(&best) {
             left.remove(&pair);

@@ -2,6 +2,7 @@
 //! line beside it; `four` alone has no shader, and traces bodies four at a time. It needs no driver and
 //! is what the shaders are checked against.
 
+pub mod background;
 pub mod r#box;
 pub mod bvh;
 pub mod camera;
@@ -15,6 +16,7 @@ pub mod maths;
 pub mod points;
 pub mod random;
 pub mod ray;
+pub mod rectangle;
 pub mod scatter;
 pub mod scene;
 pub mod sphere;

@@ -1,11 +1,14 @@
 //! Twin of `shaders/trace.wgsl`: the vertices of a pixel's paths, one after the other.
 
+use super::background::{BACKGROUND_SLOT, background_inverse_density};
+use super::r#box::box_local;
 use super::camera::{camera_direction, sample_film};
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
-use super::maths::{Basis, greater, largest};
+use super::maths::{Basis, greater, largest, sample_cosine};
 use super::random::{random_key, random_unit};
 use super::ray::{Ray, offset_origin};
+use super::rectangle::{box_inverse_density, sample_box};
 use super::scatter::*;
 use super::scene::{Surface, Traversal, surface_at};
 use crate::knobs::*;
@@ -97,6 +100,12 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         } else {
             surface.normal
         };
+        if lamp.shape != 0 {
+            let shape = &self.scene.boxes[(lamp.shape as usize).wrapping_sub(1)];
+            let to = distance * path.ray.direction;
+            let drawn = box_inverse_density(shape, path.ray.origin, surface.inside, to, outward);
+            return power_heuristic(1.0 / greater(drawn * path.density, 1e-30));
+        }
         let hit = LampHit {
             inside: surface.inside,
             direction: path.ray.direction,
@@ -120,6 +129,65 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         emission * self.lamp_hit_weight(path, surface, distance)
     }
 
+    /// A direction to a box that is a lamp.
+    fn sample_box_lamp(&self, number: u32, own: bool, origin: Vec3, u: Vec4) -> LightSample {
+        let shape = &self.scene.boxes[(number as usize).wrapping_sub(1)];
+        let local = box_local(shape, origin - Vec3::from(shape.center));
+        let inside = own || local.abs().cmplt(shape.half_size.into()).all();
+        let drawn = sample_box(shape, origin, inside, u);
+        LightSample {
+            direction: drawn.direction,
+            distance: drawn.distance,
+            weight: drawn.inverse_density,
+            inverse_density: drawn.inverse_density,
+        }
+    }
+
+    /// What the background sends to a surface and the surface sends on, by one shadow ray; and whether
+    /// the ray was traced.
+    fn light_from_background(&self, path: &Path, surface: &Surface, origin: Vec3) -> (Vec3, u32) {
+        let strategy = &self.scene.strategy;
+        let material = &self.scene.materials[surface.material as usize];
+        let u = random_unit(path.key, path.vertex.wrapping_add(1), BACKGROUND_SLOT);
+        let (normal, incoming) = (surface.normal, path.ray.direction);
+        let direction = sample_cosine(normal, Vec2::new(u[0], u[1]));
+        let inverse_density = background_inverse_density(normal, direction);
+        let density = scatter_density(strategy, material, normal, incoming, direction);
+        let reflected = evaluate_by_density(material, normal, direction, density);
+        let other = match strategy.light_strategy {
+            LightStrategy::Mis => density,
+            _ => 0.0,
+        };
+        let value = reflected
+            * inverse_density
+            * power_heuristic(inverse_density * other)
+            * Vec3::from(self.job.background);
+        if largest(value) == 0.0 {
+            return (Vec3::ZERO, 0);
+        }
+        let shadow = Ray {
+            origin,
+            direction,
+            source: surface.body,
+            inside: surface.inside,
+        };
+        let blocked = self.bodies.occluded(&shadow, 3e38, 0);
+        (if blocked { Vec3::ZERO } else { value }, 1)
+    }
+
+    /// Weight of the background seen by a ray: all of it where shadow rays could not have found it.
+    fn background_weight(&self, path: &Path) -> f32 {
+        let strategy = &self.scene.strategy;
+        if !strategy.background_lamp || path.density == 0.0 {
+            return 1.0;
+        }
+        if strategy.light_strategy == LightStrategy::Sample {
+            return 0.0;
+        }
+        let inverse_density = background_inverse_density(path.normal, path.ray.direction);
+        power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30))
+    }
+
     /// What one lamp sends to a surface and the surface sends on, by one shadow ray; and whether
     /// the ray was traced.
     #[inline(always)]
@@ -139,11 +207,16 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         if own && !surface.inside {
             return (Vec3::ZERO, 0);
         }
-        let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
         // Here and below whole numbers wrap, as WGSL's do: asking whether they would costs 3 % of the time.
         let slot = (index as u32).wrapping_add(1);
         let u = Vec4::from(random_unit(path.key, path.vertex.wrapping_add(1), slot));
-        let light = sample_light(strategy, lamp, self.pole, origin, surface.normal, inside, u);
+        let light = match lamp.shape {
+            0 => {
+                let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
+                sample_light(strategy, lamp, self.pole, origin, surface.normal, inside, u)
+            }
+            number => self.sample_box_lamp(number, own, origin, u),
+        };
         let density = scatter_density(
             strategy,
             material,
@@ -184,6 +257,11 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         let mut sum = Vec3::ZERO;
         for index in 0..self.scene.lamps.len() {
             let (radiance, rays) = self.light_from(index, path, surface, origin);
+            sum += radiance;
+            path.rays = path.rays.saturating_add(rays);
+        }
+        if self.scene.strategy.background_lamp {
+            let (radiance, rays) = self.light_from_background(path, surface, origin);
             sum += radiance;
             path.rays = path.rays.saturating_add(rays);
         }
@@ -269,7 +347,8 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         path.rays = path.rays.saturating_add(1);
         if hit.body == 0 {
             if self.emission_counts(path) {
-                path.radiance += path.throughput * Vec3::from(self.job.background);
+                let background = Vec3::from(self.job.background) * self.background_weight(path);
+                path.radiance += path.throughput * background;
             }
             path.alive = false;
             return;

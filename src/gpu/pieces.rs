@@ -114,7 +114,7 @@ fn iterations(scene: &Packed) -> u64 {
     };
     let lamps = match scene.strategy.light_strategy {
         LightStrategy::Hit => 0,
-        _ => scene.lamps.len() as u64,
+        _ => scene.lamps.len() as u64 + u64::from(scene.strategy.background_lamp),
     };
     2 + bodies + lamps * (1 + bodies)
 }

@@ -142,6 +142,16 @@ choice! {
 }
 
 choice! {
+    /// Which rays find what shines and is no spherical lamp.
+    LightSource, "LIGHT_SOURCE" {
+        /// Scattered rays alone.
+        Hit = "hit",
+        /// Shadow rays too, by the light strategy.
+        Sample = "sample",
+    }
+}
+
+choice! {
     /// What surfaces do with direct light.
     LightDirect, "LIGHT_DIRECT" {
         /// What their scattering says.

@@ -52,6 +52,9 @@ pub struct Light {
     pub pole: Pole,
     pub strategy: LightStrategy,
     pub test: LightTest,
+    /// How boxes that shine are found.
+    pub boxes: LightSource,
+    pub background: LightSource,
     pub direct: LightDirect,
 }
 
@@ -116,6 +119,8 @@ impl Settings {
                 pole: pole(&value("light.pole")),
                 strategy: choice(&value("light.strategy")),
                 test: choice(&value("light.test")),
+                boxes: choice(&value("light.boxes")),
+                background: choice(&value("light.background")),
                 direct: choice(&value("light.direct")),
             },
             scatter: ScatterSettings {

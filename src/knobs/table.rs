@@ -154,7 +154,7 @@ pub static KNOBS: &[Knob] = &[
     knob("boxes.*.min", Triple(Range::ANY), "scene units", Required, "the corner with the smallest coordinates"),
     knob("boxes.*.max", Triple(Range::ANY), "scene units", Required, "the corner with the largest coordinates"),
     knob("boxes.*.rotation", Triple(Range::ANY), "degrees", three(0.0, 0.0, 0.0), "turns about the box's centre: about x, then y, then z"),
-    knob("boxes.*.material", Material, "", Required, "the name of its material; a box that emits shines but is not sampled"),
+    knob("boxes.*.material", Material, "", Required, "the name of its material; a box that emits is a light, which light.boxes may sample"),
 
     knob("light.sampler", Name(LightSampler::NAMES), "", presets(["uniform-angles", "uniform-angles", "inverse-cosine", "cone"]),
         "how a point on a lamp is drawn: the paper's cases 1, 2, 3; the cone of directions; the half that faces the receiver, by area or by case 1's angles; or by projected solid angle"),
@@ -167,6 +167,10 @@ pub static KNOBS: &[Knob] = &[
     knob("light.pole", Pole, "", three(0.0, 0.0, 1.0), "z axis of the first two samplers: a direction, or towards the receiver"),
     knob("light.strategy", Name(LightStrategy::NAMES), "", presets(["sample", "sample", "mis", "mis"]),
         "which rays find the lamps: shadow rays, hits of scattered rays, or both by the power heuristic"),
+    knob("light.boxes", Name(LightSource::NAMES), "", presets(["hit", "hit", "hit", "sample"]),
+        "whether shadow rays look for boxes that shine, at a place of their faces even by solid angle whatever the sampler; Lambert direct light leaves them to what the camera sees"),
+    knob("light.background", Name(LightSource::NAMES), "", Default(text("hit")),
+        "whether a shadow ray looks for the background, in a direction by the cosine to the lit surface's normal; Lambert direct light leaves it to what the camera sees"),
     knob("light.direct", Name(LightDirect::NAMES), "", presets(["lambert", "lambert", "bsdf", "bsdf"]),
         "what direct light does: what the surface's scattering says, or Lambert everywhere, as in the paper"),
 

@@ -9,6 +9,7 @@ macro_rules! library {
 }
 
 library!(
+    "background",
     "baked",
     "box",
     "bvh",
@@ -23,6 +24,7 @@ library!(
     "points",
     "probe",
     "random",
+    "rectangle",
     "ray",
     "scatter",
     "scene",

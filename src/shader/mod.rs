@@ -59,6 +59,8 @@ choice! {
         EvaluateScatter = "evaluate-scatter",
         SampleLight = "sample-light",
         LightDensity = "light-density",
+        SampleBox = "sample-box",
+        BoxDensity = "box-density",
         Survival = "survival",
         Finite = "finite",
     }

@@ -23,6 +23,8 @@ pub const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
 pub const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
 pub const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
 pub const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
+/// Of boxes that shine and of the background, going round beside the others.
+pub const SOURCES: [&str; 2] = ["hit", "sample"];
 pub const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
 
 /// One value of each knob, as a place in its list above.
@@ -45,6 +47,16 @@ impl Row {
             .set("interruption.order", ORDERS[self.order])
             .set("interruption.start", 0)
             .set("scatter.diffuse", DIFFUSE[self.diffuse])
+            .set("light.boxes", SOURCES[(self.sampler + self.rule) % 2])
+            .set("light.background", SOURCES[self.background()])
+    }
+
+    fn background(self) -> usize {
+        (self.strategy + self.rule + self.order) % 2
+    }
+
+    pub fn samples_background(self) -> bool {
+        self.background() == 1
     }
 
     /// Whether every path goes on, with the albedo as its weight.
@@ -71,9 +83,9 @@ fn full() -> Vec<Row> {
             (strategy + rule) % 3,
             (strategy + diffuse) % 3,
             (rule + diffuse) % 3,
-            0,
-            0,
-            0,
+            (rule + diffuse) % 3,
+            (strategy + rule) % 3,
+            (strategy + diffuse) % 3,
             1,
         ];
         all.push(Row {
@@ -157,6 +169,18 @@ fn the_covering_cross_holds_every_pair() {
 }
 
 #[test]
+fn boxes_and_backgrounds_are_sampled_and_left_in_turn() {
+    for choices in [full(), covering(Bench::Twin), covering(Bench::Vulkan)] {
+        for strategy in 0..STRATEGIES.len() {
+            let of = |choice: &&Row| choice.strategy == strategy;
+            let kinds = |choice: &Row| ((choice.sampler + choice.rule) % 2, choice.background());
+            let all: std::collections::HashSet<_> = choices.iter().filter(of).map(kinds).collect();
+            assert_eq!(all.len(), 4, "{strategy}");
+        }
+    }
+}
+
+#[test]
 fn the_full_cross_holds_all_of_them() {
     let all = full();
     assert_eq!(count(&all, |v| [v[0], v[1], v[2], v[3]]), 168);
@@ -186,6 +210,7 @@ fn every_value_of_the_knobs_is_crossed() {
     }
     check(LightSampler::ALL, &SAMPLERS);
     check(LightStrategy::ALL, &STRATEGIES);
+    check(LightSource::ALL, &SOURCES);
     check(InterruptionRule::ALL, &RULES);
     check(InterruptionOrder::ALL, &ORDERS);
     check(ScatterDiffuse::ALL, &DIFFUSE);

@@ -56,6 +56,8 @@ pub fn strategy() -> Strategy {
         light_strategy: LightStrategy::Mis,
         light_direct: LightDirect::Bsdf,
         pole_at_receiver: false,
+        box_lamps: false,
+        background_lamp: false,
         scatter_diffuse: ScatterDiffuse::Cosine,
         scatter_bound: ScatterBound::Truncate,
         interruption_rule: InterruptionRule::Throughput,

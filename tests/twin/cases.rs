@@ -3,16 +3,18 @@
 use crate::inputs::*;
 use crate::support::strategy;
 use glam::{Vec2, Vec3, Vec4};
+use lampray::cpu::r#box::box_world;
 use lampray::cpu::r#box::{box_face, intersect_box, safe_inverse};
 use lampray::cpu::interruption::{survival_probability, survival_weight};
 use lampray::cpu::light::{LampHit, light_inverse_density, power_heuristic, sample_light};
 use lampray::cpu::maths::*;
 use lampray::cpu::random::{random_bits, random_key, random_unit};
 use lampray::cpu::ray::{Crossing, Ray};
+use lampray::cpu::rectangle::{box_inverse_density, sample_box};
 use lampray::cpu::sphere::intersect_sphere;
 use lampray::cpu::{camera, scatter};
 use lampray::knobs::*;
-use lampray::pack::{Lamp, Material, ProbeInput, Strategy};
+use lampray::pack::{Cuboid, Lamp, Material, ProbeInput, Strategy};
 use lampray::shader::Probe;
 use std::f64::consts::PI;
 
@@ -54,8 +56,13 @@ pub fn all() -> Vec<Case> {
     let scatters = scatters.flat_map(|s| [sample_scatter_case(s), evaluate_scatter_case(s)]);
     let lights = light_strategies();
     let lights = lights.flat_map(|s| [sample_light_case(s), light_density_case(s)]);
+    let boxes = [sample_box_case(), box_density_case()];
     let survivals = survival_strategies().map(survival);
-    let many = films.chain(scatters).chain(lights).chain(survivals);
+    let many = films
+        .chain(scatters)
+        .chain(lights)
+        .chain(boxes)
+        .chain(survivals);
     single.into_iter().chain(many).collect()
 }
 
@@ -752,6 +759,138 @@ fn light_density_case(of: Strategy) -> Case {
         strays: 8,
         ..made
     }
+}
+
+/// The probe's box, and whether the receiver is in it.
+fn box_of(input: &ProbeInput) -> (Cuboid, bool) {
+    let axes = pole();
+    let shape = Cuboid {
+        half_size: xyz(input.a).to_array(),
+        axis_x: axes.x.to_array(),
+        axis_y: axes.y.to_array(),
+        axis_z: axes.z.to_array(),
+        ..Cuboid::default()
+    };
+    (shape, input.d[0] == 1.0)
+}
+
+/// A box and a receiver, in the box's own axes: inside, near, or farther off.
+fn box_and_receiver(
+    place: usize,
+    stream: &mut crate::support::stream::Stream,
+) -> (ProbeInput, Vec3) {
+    let scale = stream.scale(1e-2, 1e2);
+    let half = Vec3::from([0; 3].map(|_| (scale * stream.scale(0.1, 1.0)) as f32));
+    let inside = place.is_multiple_of(3);
+    let reach = if inside { 0.98 } else { 6.0 };
+    let mut local = Vec3::from([0; 3].map(|_| stream.between(-reach, reach) as f32));
+    if !inside && local.abs().max_element() < 1.05 {
+        local.x = 1.5;
+    }
+    let (shape, _) = box_of(&ProbeInput {
+        a: half.extend(0.0).to_array(),
+        ..ProbeInput::default()
+    });
+    let made = ProbeInput {
+        a: half.extend(0.0).to_array(),
+        b: box_world(&shape, local * half).extend(0.0).to_array(),
+        d: [f32::from(u8::from(inside)), 0.0, 0.0, 0.0],
+        ..ProbeInput::default()
+    };
+    (made, local * half)
+}
+
+/// Rounding of angles of a turn grows as one over the part of it that a face is, where it is not drawn by area.
+fn sample_box_case() -> Case {
+    let inputs = many(17, |place, stream| {
+        let (made, _) = box_and_receiver(place, stream);
+        ProbeInput {
+            c: [0, 1, 2, 3].map(|turn| unit(place, turn, stream)),
+            ..made
+        }
+    });
+    let twin = |input: &ProbeInput| {
+        let (shape, inside) = box_of(input);
+        let drawn = sample_box(&shape, xyz(input.b), inside, Vec4::from(input.c));
+        let lanes: [&[f32]; 2] = [
+            &drawn.direction.to_array(),
+            &[drawn.distance, drawn.inverse_density],
+        ];
+        eight(&lanes)
+    };
+    let tolerance = |_: &ProbeInput, wanted: &[f32; 8]| {
+        let (distance, inverse) = (f64::from(wanted[3]), f64::from(wanted[4]));
+        let direction = 1e-3;
+        let density = 1e-5 * inverse + 2.0 * UNIT * inverse / direction;
+        [
+            direction,
+            direction,
+            direction,
+            1e-2 * distance,
+            density,
+            0.0,
+            0.0,
+            0.0,
+        ]
+    };
+    let made = case(
+        "sample_box",
+        Probe::SampleBox,
+        inputs,
+        Box::new(twin),
+        Box::new(tolerance),
+    );
+    Case { strays: 80, ..made }
+}
+
+fn box_density_case() -> Case {
+    let inputs = many(18, |place, stream| {
+        let (made, local) = box_and_receiver(place, stream);
+        let half = xyz(made.a);
+        let mut point = Vec3::from([0; 3].map(|_| stream.between(-0.99, 0.99) as f32));
+        // A face that is seen: across an axis along which the receiver is outside, or any from inside.
+        let beyond = (0..3).find(|&axis| local[axis].abs() > 1.01 * half[axis]);
+        let axis = beyond.unwrap_or(place % 3);
+        let side = match beyond {
+            Some(axis) => local[axis].signum(),
+            None => [-1.0, 1.0][place / 3 % 2],
+        };
+        point[axis] = side;
+        ProbeInput {
+            c: (point * half).extend(0.0).to_array(),
+            d: [
+                made.d[0],
+                (2 * axis + usize::from(side > 0.0)) as f32,
+                0.0,
+                0.0,
+            ],
+            ..made
+        }
+    });
+    let twin = |input: &ProbeInput| {
+        let (shape, inside) = box_of(input);
+        let number = input.d[1] as usize;
+        let side = if number % 2 == 1 { 1.0 } else { -1.0 };
+        let outward = box_world(&shape, side * [Vec3::X, Vec3::Y, Vec3::Z][number / 2]);
+        let to = box_world(&shape, xyz(input.c)) - xyz(input.b);
+        eight(&[&[box_inverse_density(
+            &shape,
+            xyz(input.b),
+            inside,
+            to,
+            outward,
+        )]])
+    };
+    // A face seen from the side has a height of few digits.
+    let tolerance = |_: &ProbeInput, wanted: &[f32; 8]| wanted.map(|x| 1e-4 * f64::from(x));
+    let made = case(
+        "box_density",
+        Probe::BoxDensity,
+        inputs,
+        Box::new(twin),
+        Box::new(tolerance),
+    );
+    Case { strays: 8, ..made }
 }
 
 fn survival_strategies() -> impl Iterator<Item = Strategy> {
