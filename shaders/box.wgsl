@@ -14,7 +14,8 @@ struct Box {
     // 1 + place among the bodies.
     body: u32,
     axis_y: vec3<f32>,
-    _pad0: u32,
+    // 1 + index among the lamps; 0 for a box that is none.
+    lamp: u32,
     axis_z: vec3<f32>,
     _pad1: u32,
 }

@@ -54,6 +54,13 @@ fn unit_sphere(u: vec2<f32>) -> vec3<f32> {
     return vec3<f32>(2.0 * root(u.x * (1.0 - u.x)) * around, 1.0 - 2.0 * u.x);
 }
 
+// A direction by its cosine to `normal`: to a point of the unit sphere that stands on the surface.
+fn sample_cosine(normal: vec3<f32>, u: vec2<f32>) -> vec3<f32> {
+    let sum = normal + unit_sphere(u);
+    let size = dot(sum, sum);
+    return select(normal, sum * inverseSqrt(greater(size, 1e-12)), size > 1e-12);
+}
+
 // The angle between two unit vectors whose difference has length `chord`, up to a right angle:
 // 2 asin(chord / 2). Relative error below 3e-7 for chord <= sqrt(2.02).
 fn angle_of_chord(chord: f32) -> f32 {

@@ -40,11 +40,12 @@ struct Draw {
 @group(1) @binding(1) var<storage, read_write> draws: array<Draw>;
 
 fn draw_light(u: vec4<f32>) -> Draw {
-    let light = sample_light(job.lamp, job.pole, job.receiver, job.inside == 1u, u);
+    let light = sample_light(job.lamp, job.pole, job.receiver, job.normal, job.inside == 1u, u);
     let cone = lamp_cone(job.lamp, job.receiver);
     var outward = normalize(job.receiver + light.distance * light.direction - job.lamp.center);
-    if !(LIGHT_SAMPLER == LIGHT_SAMPLER_CONE && cone.open && job.inside == 0u) {
-        outward = sample_surface(light_pole(job.pole, cone), u);
+    let by_cone = LIGHT_SAMPLER == LIGHT_SAMPLER_CONE && cone.open && job.inside == 0u;
+    if !by_cone && LIGHT_SAMPLER != LIGHT_SAMPLER_PROJECTED_CAP {
+        outward = sample_surface(light_pole(job.pole, cone), drawn_height(job.lamp, cone, job.inside == 1u), u);
     }
     let seen = light.inverse_density > 0.0;
     let density = select(0.0, 1.0 / greater(light.inverse_density, 1e-30), seen);

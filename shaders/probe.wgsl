@@ -12,6 +12,7 @@
 // #import glass
 // #import light
 // #import light_tree
+// #import rectangle
 // #import interruption
 
 struct ProbeJob {
@@ -49,8 +50,25 @@ fn probe_lamp(in: Input) -> Lamp {
     return Lamp(in.a.xyz, in.a.w, vec3<f32>(1.0), 1u, in.b.w, 0u, 0u, 0u);
 }
 
+// A box around the origin, turned as the probe's pole is.
+fn probe_box(in: Input) -> Box {
+    let axes = probe_pole();
+    return Box(vec3<f32>(0.0), 0u, in.a.xyz, 1u, axes.x, 1u, axes.y, 1u, axes.z, 0u);
+}
+
+// Outward normal of one of six faces, in the box's own axes: -x, x, -y, y, -z, z.
+fn probe_face(number: u32) -> vec3<f32> {
+    let side = select(-1.0, 1.0, number % 2u == 1u);
+    return select(vec3<f32>(0.0), vec3<f32>(side), vec3<u32>(0u, 1u, 2u) == vec3<u32>(number / 2u));
+}
+
 fn probe_pole() -> Basis {
     return basis_around(normalize(vec3<f32>(0.3, -0.5, 0.8)));
+}
+
+// Of the lit surface, by two numbers of the unit square.
+fn probe_normal(in: Input) -> vec3<f32> {
+    return unit_sphere(in.d.zw);
 }
 
 fn probe(in: Input) -> Output {
@@ -105,7 +123,7 @@ fn probe(in: Input) -> Output {
             return Output(vec4<f32>(value, scatter_density(material, in.a.xyz, in.b.xyz, in.c.xyz)), zero);
         }
         case PROBE_SAMPLE_LIGHT: {
-            let light = sample_light(probe_lamp(in), probe_pole(), in.b.xyz, in.d.x == 1.0, in.c);
+            let light = sample_light(probe_lamp(in), probe_pole(), in.b.xyz, probe_normal(in), in.d.x == 1.0, in.c);
             return Output(vec4<f32>(light.direction, light.distance), vec4<f32>(light.weight, light.inverse_density, 0.0, 0.0));
         }
         case PROBE_LIGHT_DENSITY: {
@@ -113,12 +131,22 @@ fn probe(in: Input) -> Output {
             let to_point = lamp.center + lamp.radius * in.c.xyz - in.b.xyz;
             let reach = length(to_point);
             let density = light_inverse_density(
-                lamp, probe_pole(), in.b.xyz, in.d.x == 1.0, to_point / reach, reach, in.c.xyz);
+                lamp, probe_pole(), in.b.xyz, probe_normal(in), in.d.x == 1.0, to_point / reach, reach, in.c.xyz);
             return Output(vec4<f32>(density, power_heuristic(in.d.y), 0.0, 0.0), zero);
         }
         case PROBE_FIRST_SHARE: {
             let pair = LightPair(in.a, in.b, vec2<f32>(in.c.w, in.d.w), vec2<u32>(0u));
             return Output(vec4<f32>(f32(first_share(pair, in.c.xyz, in.d.xyz)), 0.0, 0.0, 0.0), zero);
+        }
+        case PROBE_SAMPLE_BOX: {
+            let light = sample_box(probe_box(in), in.b.xyz, in.d.x == 1.0, in.c);
+            return Output(vec4<f32>(light.direction, light.distance), vec4<f32>(light.inverse_density, 0.0, 0.0, 0.0));
+        }
+        case PROBE_BOX_DENSITY: {
+            let shape = probe_box(in);
+            let to = box_world(shape, in.c.xyz) - in.b.xyz;
+            let outward = box_world(shape, probe_face(u32(in.d.y)));
+            return Output(vec4<f32>(box_inverse_density(shape, in.b.xyz, in.d.x == 1.0, to, outward), 0.0, 0.0, 0.0), zero);
         }
         case PROBE_SURVIVAL: {
             let probability = survival_probability(in.a.x, in.b.xyz, in.c.xyz);

@@ -18,6 +18,8 @@ override SPHERE_COUNT: u32;
 override BOX_COUNT: u32;
 override ROTATED_BOX_COUNT: u32;
 override LAMP_COUNT: u32;
+// 1: boxes that shine are lamps.
+override BOX_LAMPS: u32;
 
 struct Hit {
     distance: f32,
@@ -82,7 +84,7 @@ fn box_surface(index: u32, hit: Hit, ray: Ray) -> Surface {
         shape.center + point,
         select(outward, -outward, inside),
         shape.material,
-        0u,
+        select(0u, shape.lamp, BOX_LAMPS == 1u),
         hit.body,
         inside,
         shape.id,

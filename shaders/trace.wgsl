@@ -10,6 +10,8 @@
 // #import scatter
 // #import light
 // #import choice
+// #import rectangle
+// #import background
 // #import interruption
 
 override LIGHT_STRATEGY: u32;
@@ -95,8 +97,14 @@ fn lamp_hit_weight(path: Path, surface: Surface, distance: f32) -> f32 {
     let lamp = lamp_at(surface.lamp - 1u);
     let probability = choice_probability(surface.lamp - 1u, path.ray.origin, path.normal);
     let outward = select(surface.normal, -surface.normal, surface.inside);
+    if BOX_LAMPS == 1u && lamp.shape != 0u {
+        let to = distance * path.ray.direction;
+        let shape = box_at(lamp.shape - 1u);
+        let drawn = box_inverse_density(shape, path.ray.origin, surface.inside, to, outward);
+        return power_heuristic(probability / greater(drawn * path.density, 1e-30));
+    }
     let inverse_density = light_inverse_density(
-        lamp, job.pole, path.ray.origin, surface.inside, path.ray.direction, distance, outward);
+        lamp, job.pole, path.ray.origin, path.normal, surface.inside, path.ray.direction, distance, outward);
     return power_heuristic(probability / greater(inverse_density * path.density, 1e-30));
 }
 
@@ -131,7 +139,15 @@ fn light_from(
     let incoming = path.ray.direction;
     let own = surface.body == lamp.body;
     let inside = select(distance(lamp.center, origin) < lamp.radius, surface.inside, own);
-    let light = sample_light(lamp, job.pole, origin, inside, u);
+    var light: LightSample;
+    if BOX_LAMPS == 1u && lamp.shape != 0u {
+        let shape = box_at(lamp.shape - 1u);
+        let from_center = box_local(shape, origin - shape.center);
+        let drawn = sample_box(shape, origin, select(all(abs(from_center) < shape.half_size), surface.inside, own), u);
+        light = LightSample(drawn.direction, drawn.distance, drawn.inverse_density, drawn.inverse_density);
+    } else {
+        light = sample_light(lamp, job.pole, origin, surface.normal, inside, u);
+    }
     let density = scatter_density(material, surface.normal, incoming, light.direction);
     var reflected = evaluate_lambert(material, surface.normal, light.direction);
     if LIGHT_DIRECT == LIGHT_DIRECT_BSDF {
@@ -151,23 +167,62 @@ fn light_from(
     return DirectLight(select(value, vec3<f32>(0.0), blocked), 1u);
 }
 
-// The paper's direct light, one shadow ray to each lamp; or one to a lamp that is drawn.
-fn direct_light(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight {
-    var sum = DirectLight(vec3<f32>(0.0), 0u);
-    if LIGHT_STRATEGY == LIGHT_STRATEGY_HIT {
-        return sum;
+// What the background sends to a surface and the surface sends on along the path, by one shadow ray.
+fn light_from_background(path: Path, surface: Surface, origin: vec3<f32>, u: vec2<f32>) -> DirectLight {
+    let material = material_at(surface.material);
+    let direction = sample_cosine(surface.normal, u);
+    let inverse_density = background_inverse_density(surface.normal, direction);
+    let density = scatter_density(material, surface.normal, path.ray.direction, direction);
+    let reflected = evaluate_by_density(material, surface.normal, path.ray.direction, direction, density);
+    let other = select(0.0, density, LIGHT_STRATEGY == LIGHT_STRATEGY_MIS);
+    let value = reflected * inverse_density * power_heuristic(inverse_density * other) * job.background;
+    if largest(value) == 0.0 {
+        return DirectLight(vec3<f32>(0.0), 0u);
     }
+    let blocked = occluded(Ray(origin, direction, surface.body, surface.inside), 3e38, 0u);
+    return DirectLight(select(value, vec3<f32>(0.0), blocked), 1u);
+}
+
+// Weight of the background seen by a ray: all of it where shadow rays could not have found it.
+fn background_weight(path: Path) -> f32 {
+    if BACKGROUND_LAMP == 0u || path.density == 0.0 {
+        return 1.0;
+    }
+    if LIGHT_STRATEGY == LIGHT_STRATEGY_SAMPLE {
+        return 0.0;
+    }
+    let inverse_density = background_inverse_density(path.normal, path.ray.direction);
+    return power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30));
+}
+
+// The paper's light of lamps, one shadow ray to each; or one to a lamp that is drawn.
+fn light_from_lamps(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight {
     if LIGHT_CHOICE != LIGHT_CHOICE_ALL && LAMP_COUNT > 0u {
         let chosen = choose_lamp(path.key, path.vertex + 1u, origin, surface.normal);
         let u = sequence_unit(path.key, path.vertex + 1u, 1u);
         return light_from(lamp_at(chosen.lamp), chosen.inverse_probability, path, surface, origin, u);
     }
+    var sum = DirectLight(vec3<f32>(0.0), 0u);
     for (var i = 0u; i < LAMP_COUNT; i++) {
         let u = sequence_unit(path.key, path.vertex + 1u, i + 1u);
         let one = light_from(lamp_at(i), 1.0, path, surface, origin, u);
         sum = DirectLight(sum.radiance + one.radiance, sum.rays + one.rays);
     }
     return sum;
+}
+
+// The light of lamps, and of the background where that is asked for.
+fn direct_light(path: Path, surface: Surface, origin: vec3<f32>) -> DirectLight {
+    if LIGHT_STRATEGY == LIGHT_STRATEGY_HIT {
+        return DirectLight(vec3<f32>(0.0), 0u);
+    }
+    let lamps = light_from_lamps(path, surface, origin);
+    if BACKGROUND_LAMP == 0u {
+        return lamps;
+    }
+    let u = sequence_unit(path.key, path.vertex + 1u, BACKGROUND_SLOT);
+    let one = light_from_background(path, surface, origin, u.xy);
+    return DirectLight(lamps.radiance + one.radiance, lamps.rays + one.rays);
 }
 
 // Whether the ray that leaves the hit before the last can still bring something.
@@ -234,7 +289,8 @@ fn step_path(path: ptr<function, Path>) {
     (*path).rays += 1u;
     if hit.body == 0u {
         let counts = emission_counts(*path);
-        (*path).radiance += (*path).throughput * select(vec3<f32>(0.0), job.background, counts);
+        let background = job.background * background_weight(*path);
+        (*path).radiance += (*path).throughput * select(vec3<f32>(0.0), background, counts);
         (*path).alive = false;
         return;
     }

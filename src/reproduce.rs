@@ -170,7 +170,10 @@ fn run(
 fn draw_points(folder: &Path, device: &mut dyn Device) -> Result<()> {
     for case in CASES {
         let request = Request {
-            kind: Kind::Light { distance: 4.0 },
+            kind: Kind::Light {
+                distance: 4.0,
+                incidence: 0.0,
+            },
             count: POINTS,
             knobs: vec![Assignment::new(
                 "light.sampler",

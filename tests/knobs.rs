@@ -1,7 +1,7 @@
 //! The table of knobs, presets, `--set`, and the record of every knob.
 
 use lampray::Error;
-use lampray::knobs::{Choice, Kind, LightStrategy, Pole, Preset, Settings, Value};
+use lampray::knobs::{Choice, Kind, LightSource, LightStrategy, Pole, Preset, Settings, Value};
 use lampray::knobs::{KNOBS, knob_json, markdown, page, schema, table};
 use lampray::scene::{Assignment, Scene};
 
@@ -51,6 +51,7 @@ const PRESETS: &[(&str, [&str; 4])] = &[
     ("light.weight_radius", ["1.5", "null", "null", "null"]),
     ("light.strategy", ["sample", "sample", "mis", "mis"]),
     ("light.choice", ["all", "all", "all", "all"]),
+    ("light.boxes", ["hit", "hit", "hit", "sample"]),
     ("light.direct", ["lambert", "lambert", "bsdf", "bsdf"]),
     ("scatter.diffuse", ["cosine", "cosine", "cosine", "cosine"]),
     ("scatter.bound", ["clamp", "clamp", "truncate", "truncate"]),
@@ -219,6 +220,23 @@ fn lambert_and_solid_angle_imply_sampling() {
     };
     assert!(page.contains("scene.toml:19:12\n"), "{page}");
     assert!(page.contains("bsdf"), "{page}");
+}
+
+#[test]
+fn lambert_leaves_boxes_and_background_alone() {
+    let scene = set(&["light.direct=lambert"]);
+    assert_eq!(scene.settings.light.boxes, LightSource::Hit);
+    assert_eq!(scene.knobs["light.boxes"], "hit");
+    assert_eq!(set(&[]).settings.light.boxes, LightSource::Sample);
+    for path in ["light.boxes", "light.background"] {
+        set(&["light.direct=lambert", &format!("{path}=hit")]);
+        let message = refused(&["light.direct=lambert", &format!("{path}=sample")]);
+        assert!(
+            message.contains(&format!("`{path}` cannot be `sample`")),
+            "{message}"
+        );
+        assert!(message.contains("bsdf"), "{message}");
+    }
 }
 
 #[test]

@@ -116,6 +116,7 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 body,
                 axis_x,
                 axis_y,
+                lamp,
                 axis_z
             }),
         ),
@@ -139,7 +140,8 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 radius,
                 emission,
                 body,
-                weight_radius
+                weight_radius,
+                shape
             }),
         ),
         (

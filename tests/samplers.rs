@@ -15,6 +15,7 @@ const DRAWS: usize = 1_000_000;
 mod samplers {
     use super::{DRAWS, LEVEL};
 
+    mod boxes;
     mod cells;
     mod chi_square;
     mod film;

@@ -56,8 +56,8 @@ fn array_sets() -> Vec<SceneArrays> {
 }
 
 /// How many values each knob of a strategy has, in the order that [`spelled`] reads them.
-const VALUES: [usize; KNOBS] = [2, 4, 2, 3, 2, 2, 2, 2, 4, 2, 2, 3, 2, 2, 2, 4];
-const KNOBS: usize = 16;
+const VALUES: [usize; KNOBS] = [2, 7, 2, 3, 2, 2, 2, 2, 4, 2, 2, 3, 2, 2, 2, 4, 2, 2, 2];
+const KNOBS: usize = 19;
 
 fn spelled(row: &[usize; KNOBS]) -> Strategy {
     Strategy {
@@ -77,6 +77,9 @@ fn spelled(row: &[usize; KNOBS]) -> Strategy {
         glass_surfaces: row[13] == 1,
         lens: row[14] == 1,
         light_choice: LightChoice::ALL[row[15]],
+        light_test: LightTest::ALL[row[16]],
+        box_lamps: row[17] == 1,
+        background_lamp: row[18] == 1,
         ..support::strategy()
     }
 }
@@ -305,6 +308,7 @@ fn enums_have_the_same_numbers_on_both_sides() {
         expected::<Filter>("FILTER"),
         expected::<LightSampler>("LIGHT_SAMPLER"),
         expected::<LightWeight>("LIGHT_WEIGHT"),
+        expected::<LightTest>("LIGHT_TEST"),
         expected::<LightStrategy>("LIGHT_STRATEGY"),
         expected::<LightChoice>("LIGHT_CHOICE"),
         expected::<LightDirect>("LIGHT_DIRECT"),

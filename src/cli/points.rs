@@ -53,9 +53,10 @@ pub(crate) struct Command {
     /// Scatter: the ray arrives from inside the body; only glass makes a difference
     #[arg(long)]
     inside: bool,
-    /// Scatter: angle between the arriving ray and the normal, degrees
-    #[arg(long, default_value_t = 45.0, value_name = "DEGREES")]
-    incidence: f64,
+    /// Scatter: angle between the arriving ray and the normal, degrees (45). Light: angle between the receiver's
+    /// normal and the line to the lamp's centre, which light.sampler=projected-cap asks for (0)
+    #[arg(long, value_name = "DEGREES")]
+    incidence: Option<f64>,
     #[command(flatten)]
     knobs: KnobOptions,
     #[command(flatten)]
@@ -67,6 +68,7 @@ impl Command {
         let kind = match self.sampler {
             Sampler::Light => Kind::Light {
                 distance: within("--distance", self.distance, 0.0, 1e6)?,
+                incidence: within("--incidence", self.incidence.unwrap_or(0.0), 0.0, 180.0)?,
             },
             Sampler::Scatter => Kind::Scatter {
                 scatter: points::scatter(&self.scatter)?,
@@ -74,7 +76,7 @@ impl Command {
                 roughness: within("--roughness", self.roughness, 0.0, 1.0)?,
                 index: within("--index", self.index, 1.0, 4.0)?,
                 inside: self.inside,
-                incidence: within("--incidence", self.incidence, 0.0, 89.999)?,
+                incidence: within("--incidence", self.incidence.unwrap_or(45.0), 0.0, 89.999)?,
             },
         };
         let request = Request {

@@ -52,6 +52,17 @@ pub fn unit_sphere(u: Vec2) -> Vec3 {
     (2.0 * root(u.x * (1.0 - u.x)) * around).extend(1.0 - 2.0 * u.x)
 }
 
+/// A direction by its cosine to `normal`.
+pub fn sample_cosine(normal: Vec3, u: Vec2) -> Vec3 {
+    let sum = normal + unit_sphere(u);
+    let size = sum.dot(sum);
+    if size > 1e-12 {
+        sum * (1.0 / size.sqrt())
+    } else {
+        normal
+    }
+}
+
 /// 2 asin(chord / 2), up to a right angle.
 pub fn angle_of_chord(chord: f32) -> f32 {
     let z = chord * chord;

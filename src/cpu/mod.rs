@@ -2,12 +2,14 @@
 //! line beside it; `four` alone has no shader, and traces bodies four at a time. It needs no driver and
 //! is what the shaders are checked against.
 
+pub mod background;
 pub mod r#box;
 pub mod bvh;
 pub mod camera;
 pub mod canary;
-pub mod denoise;
+pub mod cap;
 pub mod choice;
+pub mod denoise;
 pub mod four;
 pub mod glass;
 pub mod guides;
@@ -19,6 +21,7 @@ pub mod maths;
 pub mod points;
 pub mod random;
 pub mod ray;
+pub mod rectangle;
 pub mod rough;
 pub mod scatter;
 pub mod scene;

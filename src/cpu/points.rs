@@ -1,7 +1,7 @@
 //! Twin of `shaders/points.wgsl`: draws by the light and scatter samplers.
 
-use super::light::{lamp_cone, sample_light, sample_surface};
-use super::maths::{Basis, basis_around, greater};
+use super::light::{drawn_height, lamp_cone, light_pole, sample_light, sample_surface};
+use super::maths::{Basis, greater};
 use super::scatter::sample_scatter;
 use super::sequence::{sequence_key, sequence_unit};
 use crate::knobs::LightSampler;
@@ -16,18 +16,15 @@ fn draw_light(strategy: &Strategy, job: &PointsJob, u: Vec4) -> Draw {
     };
     let receiver = Vec3::from(job.receiver);
     let inside = job.inside == 1;
-    let light = sample_light(strategy, &job.lamp, pole, receiver, inside, u);
+    let normal = job.normal.into();
+    let light = sample_light(strategy, &job.lamp, pole, receiver, normal, inside, u);
     let cone = lamp_cone(&job.lamp, receiver);
     let by_cone = strategy.light_sampler == LightSampler::Cone && cone.open && !inside;
-    let outward = if by_cone {
+    let outward = if by_cone || strategy.light_sampler == LightSampler::ProjectedCap {
         (receiver + light.distance * light.direction - Vec3::from(job.lamp.center)).normalize()
     } else {
-        let axes = if strategy.pole_at_receiver {
-            basis_around(-cone.axis)
-        } else {
-            pole
-        };
-        sample_surface(strategy, axes, u)
+        let height = drawn_height(strategy, &job.lamp, cone, inside);
+        sample_surface(strategy, light_pole(strategy, pole, cone), height, u)
     };
     let seen = light.inverse_density > 0.0;
     let density = if seen {

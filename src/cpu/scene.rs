@@ -81,7 +81,7 @@ fn box_surface(scene: &Packed, hit: Hit, ray: &Ray) -> Surface {
         point: center + point,
         normal: if inside { -outward } else { outward },
         material: shape.material,
-        lamp: 0,
+        lamp: shape.lamp,
         body: hit.body,
         inside,
         id: shape.id,

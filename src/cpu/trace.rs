@@ -1,11 +1,14 @@
 //! Twin of `shaders/trace.wgsl`: the vertices of a pixel's paths, one after the other.
 
+use super::background::{BACKGROUND_SLOT, background_inverse_density};
+use super::r#box::box_local;
 use super::camera::{camera_direction, lens_direction, sample_film, sample_lens};
 use super::choice::{choice_probability, choose_lamp};
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
-use super::maths::{Basis, greater, largest};
+use super::maths::{Basis, greater, largest, sample_cosine};
 use super::ray::{Ray, offset_origin};
+use super::rectangle::{box_inverse_density, sample_box};
 use super::scatter::*;
 use super::scene::{Surface, Traversal, surface_at};
 use super::sequence::{sequence_key, sequence_unit};
@@ -106,6 +109,12 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         } else {
             surface.normal
         };
+        if lamp.shape != 0 {
+            let shape = &self.scene.boxes[(lamp.shape as usize).wrapping_sub(1)];
+            let to = distance * path.ray.direction;
+            let drawn = box_inverse_density(shape, path.ray.origin, surface.inside, to, outward);
+            return power_heuristic(probability / greater(drawn * path.density, 1e-30));
+        }
         let hit = LampHit {
             inside: surface.inside,
             direction: path.ray.direction,
@@ -113,7 +122,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             outward,
         };
         let inverse_density =
-            light_inverse_density(strategy, lamp, self.pole, path.ray.origin, hit);
+            light_inverse_density(strategy, lamp, self.pole, path.ray.origin, path.normal, hit);
         power_heuristic(probability / greater(inverse_density * path.density, 1e-30))
     }
 
@@ -127,6 +136,67 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             return emission;
         }
         emission * self.lamp_hit_weight(path, surface, distance)
+    }
+
+    /// A direction to a box that is a lamp.
+    fn sample_box_lamp(&self, number: u32, own: bool, origin: Vec3, u: Vec4) -> LightSample {
+        let shape = &self.scene.boxes[(number as usize).wrapping_sub(1)];
+        let local = box_local(shape, origin - Vec3::from(shape.center));
+        let inside = own || local.abs().cmplt(shape.half_size.into()).all();
+        let drawn = sample_box(shape, origin, inside, u);
+        LightSample {
+            direction: drawn.direction,
+            distance: drawn.distance,
+            weight: drawn.inverse_density,
+            inverse_density: drawn.inverse_density,
+        }
+    }
+
+    /// What the background sends to a surface and the surface sends on, by one shadow ray; and whether
+    /// the ray was traced.
+    fn light_from_background(&self, path: &Path, surface: &Surface, origin: Vec3) -> (Vec3, u32) {
+        let strategy = &self.scene.strategy;
+        let material = &self.scene.materials[surface.material as usize];
+        let vertex = path.vertex.wrapping_add(1);
+        let u = sequence_unit(strategy, path.key, vertex, BACKGROUND_SLOT);
+        let (normal, incoming) = (surface.normal, path.ray.direction);
+        let direction = sample_cosine(normal, Vec2::new(u[0], u[1]));
+        let inverse_density = background_inverse_density(normal, direction);
+        let density = scatter_density(strategy, material, normal, incoming, direction);
+        let reflected =
+            evaluate_by_density(strategy, material, normal, incoming, direction, density);
+        let other = match strategy.light_strategy {
+            LightStrategy::Mis => density,
+            _ => 0.0,
+        };
+        let value = reflected
+            * inverse_density
+            * power_heuristic(inverse_density * other)
+            * Vec3::from(self.job.background);
+        if largest(value) == 0.0 {
+            return (Vec3::ZERO, 0);
+        }
+        let shadow = Ray {
+            origin,
+            direction,
+            source: surface.body,
+            inside: surface.inside,
+        };
+        let blocked = self.bodies.occluded(&shadow, 3e38, 0);
+        (if blocked { Vec3::ZERO } else { value }, 1)
+    }
+
+    /// Weight of the background seen by a ray: all of it where shadow rays could not have found it.
+    fn background_weight(&self, path: &Path) -> f32 {
+        let strategy = &self.scene.strategy;
+        if !strategy.background_lamp || path.density == 0.0 {
+            return 1.0;
+        }
+        if strategy.light_strategy == LightStrategy::Sample {
+            return 0.0;
+        }
+        let inverse_density = background_inverse_density(path.normal, path.ray.direction);
+        power_heuristic(1.0 / greater(inverse_density * path.density, 1e-30))
     }
 
     /// What one lamp sends to a surface and the surface sends on, by one shadow ray; and whether
@@ -149,11 +219,16 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         if own && !surface.inside {
             return (Vec3::ZERO, 0);
         }
-        let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
         // Here and below whole numbers wrap, as WGSL's do: asking whether they would costs 3 % of the time.
         let vertex = path.vertex.wrapping_add(1);
         let u = Vec4::from(sequence_unit(strategy, path.key, vertex, slot));
-        let light = sample_light(strategy, lamp, self.pole, origin, inside, u);
+        let light = match lamp.shape {
+            0 => {
+                let inside = own || Vec3::from(lamp.center).distance(origin) < lamp.radius;
+                sample_light(strategy, lamp, self.pole, origin, surface.normal, inside, u)
+            }
+            number => self.sample_box_lamp(number, own, origin, u),
+        };
         let density = scatter_density(
             strategy,
             material,
@@ -193,26 +268,35 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         (if blocked { Vec3::ZERO } else { value }, 1)
     }
 
-    /// The paper's direct light, one shadow ray to each lamp; or one to a lamp that is drawn.
+    /// The paper's light of lamps, one shadow ray to each; or one to a lamp that is drawn.
+    #[inline(always)]
+    fn light_from_lamps(&self, path: &Path, surface: &Surface, origin: Vec3) -> (Vec3, u32) {
+        if self.scene.strategy.light_choice != LightChoice::All && !self.scene.lamps.is_empty() {
+            let vertex = path.vertex.wrapping_add(1);
+            let chosen = choose_lamp(self.scene, path.key, vertex, origin, surface.normal);
+            let lamp = (chosen.lamp as usize, 1);
+            return self.light_from(lamp, chosen.inverse_probability, path, surface, origin);
+        }
+        let (mut sum, mut traced) = (Vec3::ZERO, 0u32);
+        for index in 0..self.scene.lamps.len() {
+            let lamp = (index, (index as u32).wrapping_add(1));
+            let (radiance, rays) = self.light_from(lamp, 1.0, path, surface, origin);
+            sum += radiance;
+            traced = traced.saturating_add(rays);
+        }
+        (sum, traced)
+    }
+
+    /// The light of lamps, and of the background where that is asked for.
     #[inline(always)]
     fn direct_light(&self, path: &mut Path, surface: &Surface, origin: Vec3) {
         if self.scene.strategy.light_strategy == LightStrategy::Hit {
             return;
         }
-        if self.scene.strategy.light_choice != LightChoice::All && !self.scene.lamps.is_empty() {
-            let vertex = path.vertex.wrapping_add(1);
-            let chosen = choose_lamp(self.scene, path.key, vertex, origin, surface.normal);
-            let lamp = (chosen.lamp as usize, 1);
-            let (radiance, rays) =
-                self.light_from(lamp, chosen.inverse_probability, path, surface, origin);
-            path.rays = path.rays.saturating_add(rays);
-            path.radiance += path.throughput * radiance;
-            return;
-        }
-        let mut sum = Vec3::ZERO;
-        for index in 0..self.scene.lamps.len() {
-            let lamp = (index, (index as u32).wrapping_add(1));
-            let (radiance, rays) = self.light_from(lamp, 1.0, path, surface, origin);
+        let (mut sum, rays) = self.light_from_lamps(path, surface, origin);
+        path.rays = path.rays.saturating_add(rays);
+        if self.scene.strategy.background_lamp {
+            let (radiance, rays) = self.light_from_background(path, surface, origin);
             sum += radiance;
             path.rays = path.rays.saturating_add(rays);
         }
@@ -241,6 +325,7 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         );
         path.throughput *= scattered.weight;
         path.density = scattered.density;
+        path.normal = surface.normal;
         path.ray = Ray {
             origin,
             direction: scattered.direction,
@@ -255,7 +340,6 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         path.vertex = path.vertex.wrapping_add(1);
         let useful = path.vertex < self.job.max_bounces || self.last_ray_counts(&scattered);
         path.alive = useful && largest(path.throughput) > 0.0;
-        path.normal = surface.normal;
     }
 
     /// Emission, direct light and the next ray of one hit.
@@ -304,7 +388,8 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         path.rays = path.rays.saturating_add(1);
         if hit.body == 0 {
             if self.emission_counts(path) {
-                path.radiance += path.throughput * Vec3::from(self.job.background);
+                let background = Vec3::from(self.job.background) * self.background_weight(path);
+                path.radiance += path.throughput * background;
             }
             path.alive = false;
             return;

@@ -1,8 +1,8 @@
 //! The run record: everything needed to know what a picture is, and to render it again.
 
 use super::Denoised;
-use super::scouts::AdaptiveRecord;
 use super::randomisations::ErrorEstimate;
+use super::scouts::AdaptiveRecord;
 use crate::device::DeviceInfo;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

@@ -117,9 +117,10 @@ fn iterations(scene: &Packed) -> u64 {
         _ => (scene.spheres.len() + scene.boxes.len()) as u64 + 3,
     };
     let strategy = &scene.strategy;
+    let background = u32::from(strategy.background_lamp);
     let (loops, shadow_rays) = match strategy.light_strategy {
         LightStrategy::Hit => (0, 0),
-        _ => (strategy.light_loops, strategy.shadow_rays()),
+        _ => (strategy.light_loops, strategy.shadow_rays() + background),
     };
     2 + bodies + u64::from(loops) + u64::from(shadow_rays) * bodies
 }

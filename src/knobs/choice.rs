@@ -104,6 +104,22 @@ choice! {
         Gaussian = "gaussian",
         /// Uniform over the cone of directions under which the lamp is seen.
         Cone = "cone",
+        /// Uniform by area over the half that the receiver can see.
+        FacingCap = "facing-cap",
+        /// Case 1 with its pole at the receiver, on the half that it can see.
+        FacingAngles = "facing-angles",
+        /// Uniform by projected solid angle: each direction counts alike for a matt receiver.
+        ProjectedCap = "projected-cap",
+    }
+}
+
+choice! {
+    /// When a drawn lamp point counts.
+    LightTest, "LIGHT_TEST" {
+        /// When the point itself is seen.
+        Point = "point",
+        /// When the lamp is the first body in its direction, as in the base code.
+        Object = "object",
     }
 }
 
@@ -140,6 +156,16 @@ choice! {
         Power = "power",
         /// To one, by a tree of lamps walked from where the light arrives (Conty Estevez and Kulla 2018).
         Tree = "tree",
+    }
+}
+
+choice! {
+    /// Which rays find what shines and is no spherical lamp.
+    LightSource, "LIGHT_SOURCE" {
+        /// Scattered rays alone.
+        Hit = "hit",
+        /// Shadow rays too, by the light strategy.
+        Sample = "sample",
     }
 }
 

@@ -55,6 +55,10 @@ pub struct Light {
     pub pole: Pole,
     pub strategy: LightStrategy,
     pub choice: LightChoice,
+    pub test: LightTest,
+    /// How boxes that shine are found.
+    pub boxes: LightSource,
+    pub background: LightSource,
     pub direct: LightDirect,
 }
 
@@ -121,6 +125,9 @@ impl Settings {
                 pole: pole(&value("light.pole")),
                 strategy: choice(&value("light.strategy")),
                 choice: choice(&value("light.choice")),
+                test: choice(&value("light.test")),
+                boxes: choice(&value("light.boxes")),
+                background: choice(&value("light.background")),
                 direct: choice(&value("light.direct")),
             },
             scatter: ScatterSettings {

@@ -1,6 +1,6 @@
 //! What one lamp of many is chosen by, as `shaders/choice.wgsl` reads it.
 
-use super::{Lamp, alias, light_tree};
+use super::{Cuboid, Lamp, alias, light_tree};
 use crate::knobs::{Light, LightChoice, LightStrategy};
 use std::f64::consts::PI;
 
@@ -18,7 +18,8 @@ pub struct Choices {
 }
 
 impl Choices {
-    pub(super) fn new(light: &Light, lamps: &[Lamp]) -> Self {
+    pub(super) fn new(light: &Light, lamps: &[Lamp], boxes: &[Cuboid]) -> Self {
+        let power = |lamp: &Lamp| power(lamp, boxes);
         let unread = light.strategy == LightStrategy::Hit || lamps.is_empty();
         let table = |entries| Self { entries, loops: 1 };
         match light.choice {
@@ -30,7 +31,7 @@ impl Choices {
             LightChoice::Uniform => table(alias::table(&vec![1.0; lamps.len()])),
             LightChoice::Power => table(alias::table(&lamps.iter().map(power).collect::<Vec<_>>())),
             LightChoice::Tree => {
-                let groups: Vec<_> = lamps.iter().map(group).collect();
+                let groups: Vec<_> = lamps.iter().map(|lamp| group(lamp, power(lamp))).collect();
                 let (entries, depth) = light_tree::build(&groups);
                 // One walk for the lamp of the shadow ray, one for a lamp that the ray itself found.
                 let loops = 2 * (depth + 1);
@@ -42,16 +43,26 @@ impl Choices {
 
 /// What a lamp sends out, pi times area times radiance, in its brightest channel: so that no channel
 /// of one that has colour is left to chance.
-fn power(lamp: &Lamp) -> f64 {
-    let radius = f64::from(lamp.radius);
+fn power(lamp: &Lamp, boxes: &[Cuboid]) -> f64 {
     let brightest = lamp.emission.into_iter().fold(0.0, f32::max);
-    PI * 4.0 * PI * radius * radius * f64::from(brightest)
+    PI * area(lamp, boxes) * f64::from(brightest)
 }
 
-fn group(lamp: &Lamp) -> light_tree::Group {
+fn area(lamp: &Lamp, boxes: &[Cuboid]) -> f64 {
+    match lamp.shape {
+        0 => 4.0 * PI * f64::from(lamp.radius).powi(2),
+        number => {
+            let [x, y, z] = boxes[number as usize - 1].half_size.map(f64::from);
+            8.0 * (x * y + y * z + z * x)
+        }
+    }
+}
+
+/// The sphere around a lamp.
+fn group(lamp: &Lamp, power: f64) -> light_tree::Group {
     light_tree::Group {
         center: lamp.center.map(f64::from).into(),
         radius: f64::from(lamp.radius),
-        power: power(lamp),
+        power,
     }
 }

@@ -59,7 +59,8 @@ pub struct Cuboid {
     /// 1 + place among the packed bodies.
     pub body: u32,
     pub axis_y: Vec3,
-    pub _pad0: u32,
+    /// 1 + index among the lamps; 0 for a box that is none.
+    pub lamp: u32,
     pub axis_z: Vec3,
     pub _pad1: u32,
 }
@@ -88,9 +89,10 @@ pub struct Lamp {
     /// 1 + place among the packed bodies.
     pub body: u32,
     pub weight_radius: f32,
+    /// 0 for a sphere; 1 + index of a box, whose middle and half diagonal are above.
+    pub shape: u32,
     pub _pad0: u32,
     pub _pad1: u32,
-    pub _pad2: u32,
 }
 
 /// `trace.wgsl`: one dispatch.

@@ -1,8 +1,8 @@
 //! From a scene to flat buffers: what a device needs, with no device in it.
 
-mod guides;
 mod alias;
 mod choice;
+mod guides;
 mod layout;
 mod light_tree;
 mod rect;
@@ -56,8 +56,11 @@ impl Packed {
     pub fn by(scene: &Scene, traversal: Traversal) -> Self {
         let eye = scene.camera.position;
         let settings = &scene.settings;
-        let (spheres, lamps) = pack_spheres(scene, eye);
-        let (boxes, rotated) = pack_boxes(scene, eye);
+        let (spheres, mut lamps) = pack_spheres(scene, eye);
+        let (mut boxes, rotated) = pack_boxes(scene, eye);
+        if strategy::samples_boxes(scene) {
+            add_box_lamps(scene, &mut boxes, &mut lamps);
+        }
         let straight = boxes.len() - rotated as usize;
         let mut strategy = Strategy::new(
             scene,
@@ -66,7 +69,7 @@ impl Packed {
             rotated,
             lamps.len() as u32,
         );
-        let choice = Choices::new(&settings.light, &lamps);
+        let choice = Choices::new(&settings.light, &lamps, &boxes);
         strategy.light_loops = choice.loops;
         let by_tree = traversal == Traversal::Bvh;
         let camera = pack_camera(&scene.camera, settings.image.width, settings.image.height);
@@ -243,6 +246,27 @@ fn pack_boxes(scene: &Scene, eye: DVec3) -> (Vec<Cuboid>, u32) {
     }
     let rotated = scene.boxes.iter().filter(|shape| is_rotated(shape)).count();
     (boxes, rotated as u32)
+}
+
+/// Makes lamps of the boxes that shine, behind those there are.
+fn add_box_lamps(scene: &Scene, boxes: &mut [Cuboid], lamps: &mut Vec<Lamp>) {
+    for (shape, number) in boxes.iter_mut().zip(1..) {
+        let material = &scene.materials[shape.material as usize];
+        if !material.emits() {
+            continue;
+        }
+        let radius = glam::Vec3::from(shape.half_size).length();
+        lamps.push(Lamp {
+            center: shape.center,
+            radius,
+            emission: single(material.emission),
+            body: shape.body,
+            weight_radius: radius,
+            shape: number,
+            ..Lamp::default()
+        });
+        shape.lamp = lamps.len() as u32;
+    }
 }
 
 fn pack_box(shape: &scene::Cuboid, eye: DVec3, id: u32) -> Cuboid {

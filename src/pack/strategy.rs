@@ -27,10 +27,14 @@ pub struct Strategy {
     pub filter: Filter,
     pub light_sampler: LightSampler,
     pub light_weight: LightWeight,
+    pub light_test: LightTest,
     pub light_strategy: LightStrategy,
     pub light_choice: LightChoice,
     pub light_direct: LightDirect,
     pub pole_at_receiver: bool,
+    /// Whether shadow rays look for boxes that shine, and for the background.
+    pub box_lamps: bool,
+    pub background_lamp: bool,
     pub scatter_diffuse: ScatterDiffuse,
     pub scatter_bound: ScatterBound,
     pub interruption_rule: InterruptionRule,
@@ -64,10 +68,13 @@ impl Strategy {
             filter: settings.image.filter,
             light_sampler: settings.light.sampler,
             light_weight: settings.light.weight,
+            light_test: settings.light.test,
             light_strategy: settings.light.strategy,
             light_choice: settings.light.choice,
             light_direct: settings.light.direct,
             pole_at_receiver: settings.light.pole == Pole::Receiver,
+            box_lamps: samples_boxes(scene),
+            background_lamp: samples_background(scene),
             scatter_diffuse: settings.scatter.diffuse,
             scatter_bound: settings.scatter.bound,
             interruption_rule: settings.interruption.rule,
@@ -107,10 +114,13 @@ impl Strategy {
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
             ("LIGHT_WEIGHT", self.light_weight.index()),
+            ("LIGHT_TEST", self.light_test.index()),
             ("LIGHT_STRATEGY", self.light_strategy.index()),
             ("LIGHT_CHOICE", self.light_choice.index()),
             ("LIGHT_DIRECT", self.light_direct.index()),
             ("POLE_AT_RECEIVER", u32::from(self.pole_at_receiver)),
+            ("BOX_LAMPS", u32::from(self.box_lamps)),
+            ("BACKGROUND_LAMP", u32::from(self.background_lamp)),
             ("SCATTER_DIFFUSE", self.scatter_diffuse.index()),
             ("SCATTER_BOUND", self.scatter_bound.index()),
             ("INTERRUPTION_RULE", self.interruption_rule.index()),
@@ -134,13 +144,32 @@ impl Strategy {
     }
 }
 
+fn box_shines(scene: &Scene) -> bool {
+    let mut boxes = scene.boxes.iter();
+    boxes.any(|shape| scene.materials[shape.material].emits())
+}
+
+/// Whether there are shadow rays to anything but the lamps of the paper.
+fn samples(scene: &Scene, source: LightSource) -> bool {
+    let light = &scene.settings.light;
+    let by_shadow_rays = light.strategy != LightStrategy::Hit;
+    source == LightSource::Sample && by_shadow_rays && light.direct == LightDirect::Bsdf
+}
+
+/// Whether boxes that shine are lamps.
+pub(super) fn samples_boxes(scene: &Scene) -> bool {
+    samples(scene, scene.settings.light.boxes) && box_shines(scene)
+}
+
+fn samples_background(scene: &Scene) -> bool {
+    samples(scene, scene.settings.light.background) && scene.background.max_element() > 0.0
+}
+
 fn last_ray(scene: &Scene) -> LastRay {
     let light = &scene.settings.light;
-    let box_shines = scene
-        .boxes
-        .iter()
-        .any(|shape| scene.materials[shape.material].emits());
-    let unsampled = box_shines || scene.background.max_element() > 0.0;
+    let background_shines = scene.background.max_element() > 0.0;
+    let unsampled = (box_shines(scene) && !samples_boxes(scene))
+        || (background_shines && !samples_background(scene));
     if light.direct == LightDirect::Lambert {
         LastRay::Never
     } else if light.strategy == LightStrategy::Sample && !unsampled {

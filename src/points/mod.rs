@@ -18,6 +18,8 @@ pub enum Kind {
     Light {
         /// From the lamp's centre, in lamp radii.
         distance: f64,
+        /// Of the line to the lamp's centre against the receiver's normal, degrees.
+        incidence: f64,
     },
     /// Directions off a surface whose normal is the z axis.
     Scatter {
@@ -93,7 +95,7 @@ pub fn draw(device: &mut dyn Device, request: &Request) -> Result<Cloud> {
     let packed = Packed::new(&scene);
     let job = job_of(&packed, request);
     let title = match &request.kind {
-        Kind::Light { distance } => {
+        Kind::Light { distance, .. } => {
             format!(
                 "light.sampler = {}, receiver at {distance} radii",
                 scene.settings.light.sampler
@@ -158,19 +160,27 @@ fn scene_of(request: &Request) -> Result<Scene> {
 
 fn job_of(packed: &Packed, request: &Request) -> PointsJob {
     let (distance, incidence, scattering, inside) = match request.kind {
-        Kind::Light { distance } => (distance, 0.0, 0, distance < 1.0),
+        Kind::Light {
+            distance,
+            incidence,
+        } => (distance, incidence, 0, distance < 1.0),
         Kind::Scatter {
             incidence, inside, ..
         } => (4.0, incidence, 1, inside),
     };
     let (sine, cosine) = incidence.to_radians().sin_cos();
+    // The receiver stands on the z axis and looks down at the lamp.
+    let normal = match scattering {
+        0 => [sine as f32, 0.0, -cosine as f32],
+        _ => [0.0, 0.0, 1.0],
+    };
     PointsJob {
         lamp: packed.lamps[0],
         material: packed.materials[0],
         pole: packed.pole,
         receiver: [0.0, 0.0, distance as f32],
         inside: u32::from(inside),
-        normal: [0.0, 0.0, 1.0],
+        normal,
         count: request.count,
         incoming: [sine as f32, 0.0, -cosine as f32],
         scattering,

@@ -33,8 +33,10 @@ pub(crate) fn build(
         faults,
     };
     let strategy = builder.strategy();
+    let lambert = builder.lambert();
     let settings = Settings::gather(builder.preset, |path| match (path, &strategy) {
         ("light.strategy", Some(implied)) => implied.clone(),
+        ("light.boxes" | "light.background", _) if lambert => Value::Text("hit".into()),
         _ => builder.single(path),
     });
     builder.picture(&settings);
@@ -50,7 +52,7 @@ pub(crate) fn build(
     let spheres = builder.spheres(&names);
     let boxes = builder.boxes(&names);
     builder.kernel(&settings, spheres.len() + boxes.len());
-    let knobs = builder.record(strategy.as_ref());
+    let knobs = builder.record(strategy.as_ref(), lambert);
     faults.is_empty().then_some(Scene {
         source,
         camera,
@@ -170,6 +172,28 @@ impl Builder<'_, '_, '_> {
         });
     }
 
+    /// Whether direct light is Lambert's: what is no spherical lamp is then left to what the camera sees, and asked
+    /// for otherwise it is a fault.
+    fn lambert(&mut self) -> bool {
+        if self.single("light.direct").text() != "lambert" {
+            return false;
+        }
+        for path in ["light.boxes", "light.background"] {
+            let written = self.draft.singles.by_path(path).is_some();
+            if written && self.single(path).text() == "sample" {
+                let origin = self.blame(&[self.origin(path), self.origin("light.direct")]);
+                self.faults.add(origin, || {
+                    let message = format!(
+                        "`{path}` cannot be `sample` beside `light.direct = \"lambert\"`, which lights by the spherical lamps alone"
+                    );
+                    let note = format!("leave out `{path}` or set it to `hit`; or set `light.direct` to `bsdf`");
+                    (message, Some(note))
+                });
+            }
+        }
+        true
+    }
+
     fn picture(&mut self, settings: &Settings) {
         let (width, height) = (settings.image.width, settings.image.height);
         if u64::from(width) * u64::from(height) > MOST_PIXELS {
@@ -280,11 +304,16 @@ impl Builder<'_, '_, '_> {
     }
 
     /// Every knob's value by its path, as records carry them.
-    fn record(&self, strategy: Option<&Value>) -> serde_json::Map<String, serde_json::Value> {
+    fn record(
+        &self,
+        strategy: Option<&Value>,
+        lambert: bool,
+    ) -> serde_json::Map<String, serde_json::Value> {
         let mut record = serde_json::Map::new();
         for knob in KNOBS.iter().filter(|knob| !knob.repeats()) {
             let value = match (knob.path, strategy) {
                 ("light.strategy", Some(implied)) => implied.to_json(),
+                ("light.boxes" | "light.background", _) if lambert => "hit".into(),
                 (path, _) => self.single(path).to_json(),
             };
             record.insert(knob.path.into(), value);

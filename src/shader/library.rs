@@ -12,6 +12,7 @@ macro_rules! library {
 }
 
 library!(
+    "background",
     "baked",
     "box",
     "bvh",
@@ -19,6 +20,7 @@ library!(
     "canary",
     "denoise",
     "choice",
+    "cap",
     "features",
     "glass",
     "guides",
@@ -30,6 +32,7 @@ library!(
     "points",
     "probe",
     "random",
+    "rectangle",
     "ray",
     "rough",
     "scatter",

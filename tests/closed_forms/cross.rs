@@ -2,7 +2,7 @@
 //!
 //! [`full`] is every sampler with every strategy, rule and way to scatter; [`covering`] is sixteen of
 //! them in which every pair of values stands, by Bush's orthogonal array OA(16, 5, 4, 2) (Bush
-//! 1952, "Orthogonal arrays of index unity"). [`crossed`] is the full cross on the twin and the covering
+//! 1952, "Orthogonal arrays of index unity"), and the array's rows once more for the last samplers. [`crossed`] is the full cross on the twin and the covering
 //! one on a graphics device, whose driver compiles each choice for a tenth of a second. Either way
 //! every value meets every device. Tests of interruption start at the camera's hit.
 
@@ -10,12 +10,22 @@ use crate::support::bench::Bench;
 use crate::support::gate::{Case, Family};
 use lampray::knobs::*;
 
-pub const SAMPLERS: [&str; 4] = ["uniform-angles", "inverse-cosine", "gaussian", "cone"];
+pub const SAMPLERS: [&str; 7] = [
+    "uniform-angles",
+    "inverse-cosine",
+    "gaussian",
+    "cone",
+    "facing-cap",
+    "facing-angles",
+    "projected-cap",
+];
 pub const STRATEGIES: [&str; 3] = ["sample", "mis", "hit"];
 pub const CHOICES: [&str; 4] = ["all", "uniform", "power", "tree"];
 pub const RULES: [&str; 4] = ["none", "survival", "albedo", "throughput"];
 pub const DIFFUSE: [&str; 2] = ["cosine", "uniform"];
 pub const ORDERS: [&str; 2] = ["after-direct", "before-direct"];
+/// Of boxes that shine and of the background, going round beside the others.
+pub const SOURCES: [&str; 2] = ["hit", "sample"];
 pub const POLES: [&str; 3] = ["[0, 0, 1]", "receiver", "[1, -2, 0.5]"];
 
 /// One value of each knob, as a place in its list above.
@@ -39,6 +49,16 @@ impl Row {
             .set("interruption.order", ORDERS[self.order])
             .set("interruption.start", 0)
             .set("scatter.diffuse", DIFFUSE[self.diffuse])
+            .set("light.boxes", SOURCES[(self.sampler + self.rule) % 2])
+            .set("light.background", SOURCES[self.background()])
+    }
+
+    fn background(self) -> usize {
+        (self.strategy + self.rule + self.order) % 2
+    }
+
+    pub fn samples_background(self) -> bool {
+        self.background() == 1
     }
 
     /// Whether every path goes on, with the albedo as its weight.
@@ -53,11 +73,11 @@ impl Row {
     }
 }
 
-/// All 96 of sampler, strategy, rule and way to scatter, and those of the first sampler, whose law
+/// All 168 of sampler, strategy, rule and way to scatter, and those of the first sampler, whose law
 /// turns with the pole, with the pole at the receiver too. Poles and orders go round beside them.
 fn full() -> Vec<Row> {
     let mut all = Vec::new();
-    for index in 0..120 {
+    for index in 0..192 {
         let (variant, strategy, rule, diffuse) =
             (index / 24, index / 8 % 3, index / 2 % 4, index % 2);
         let poles = [
@@ -65,10 +85,13 @@ fn full() -> Vec<Row> {
             (strategy + rule) % 3,
             (strategy + diffuse) % 3,
             (rule + diffuse) % 3,
+            (rule + diffuse) % 3,
+            (strategy + rule) % 3,
+            (strategy + diffuse) % 3,
             1,
         ];
         all.push(Row {
-            sampler: variant % 4,
+            sampler: variant % SAMPLERS.len(),
             pole: poles[variant],
             strategy,
             rule,
@@ -79,15 +102,15 @@ fn full() -> Vec<Row> {
     all
 }
 
-/// Sixteen rows with every pair of values. Columns are a, b and a + k b over the field of four
+/// Twenty-eight rows with every pair of values: sixteen, and the twelve of the last samplers. Columns are a, b and a + k b over the field of four
 /// elements, k = 1, w, w^2; the last one's two bits are two knobs. The second device has other triples.
 pub fn covering(bench: Bench) -> Vec<Row> {
     const BY_W: [usize; 4] = [0, 2, 3, 1];
     let row = |index: usize| {
-        let (a, b) = (index / 4, index % 4);
+        let (a, b) = (index / 4 % 4, index % 4);
         let last = a ^ BY_W[BY_W[b]];
         Row {
-            sampler: a,
+            sampler: if index < 16 { a } else { a + 3 },
             pole: [0, 1, 2, 1][a ^ BY_W[b]],
             strategy: [0, 1, 2, 1][a ^ b ^ (bench as usize)],
             rule: b,
@@ -95,7 +118,7 @@ pub fn covering(bench: Bench) -> Vec<Row> {
             order: last / 2,
         }
     };
-    (0..16).map(row).collect()
+    (0..16).chain(20..32).map(row).collect()
 }
 
 /// The full cross on the twin, the covering one on a graphics device.
@@ -126,7 +149,7 @@ fn values(choice: &Row) -> [usize; 6] {
     [sampler, strategy, rule, diffuse, order, pole]
 }
 
-const SIZES: [usize; 6] = [4, 3, 4, 2, 2, 3];
+const SIZES: [usize; 6] = [7, 3, 4, 2, 2, 3];
 
 fn count<T: std::hash::Hash + Eq>(choices: &[Row], of: impl Fn([usize; 6]) -> T) -> usize {
     let all: std::collections::HashSet<_> = choices.iter().map(|one| of(values(one))).collect();
@@ -148,9 +171,21 @@ fn the_covering_cross_holds_every_pair() {
 }
 
 #[test]
+fn boxes_and_backgrounds_are_sampled_and_left_in_turn() {
+    for choices in [full(), covering(Bench::Twin), covering(Bench::Vulkan)] {
+        for strategy in 0..STRATEGIES.len() {
+            let of = |choice: &&Row| choice.strategy == strategy;
+            let kinds = |choice: &Row| ((choice.sampler + choice.rule) % 2, choice.background());
+            let all: std::collections::HashSet<_> = choices.iter().filter(of).map(kinds).collect();
+            assert_eq!(all.len(), 4, "{strategy}");
+        }
+    }
+}
+
+#[test]
 fn the_full_cross_holds_all_of_them() {
     let all = full();
-    assert_eq!(count(&all, |v| [v[0], v[1], v[2], v[3]]), 96);
+    assert_eq!(count(&all, |v| [v[0], v[1], v[2], v[3]]), 168);
     let aimed: Vec<_> = all
         .iter()
         .filter(|c| (c.sampler, c.pole) == (0, 1))
@@ -178,6 +213,7 @@ fn every_value_of_the_knobs_is_crossed() {
     check(LightSampler::ALL, &SAMPLERS);
     check(LightStrategy::ALL, &STRATEGIES);
     check(LightChoice::ALL, &CHOICES);
+    check(LightSource::ALL, &SOURCES);
     check(InterruptionRule::ALL, &RULES);
     check(InterruptionOrder::ALL, &ORDERS);
     check(ScatterDiffuse::ALL, &DIFFUSE);

@@ -140,6 +140,7 @@ fn interrupted(shape: Shape, strategy: &str, order: &str, rule: &str, weight: &s
     case(shape, max_bounces, Form::Mean(truth))
         .set("light.strategy", strategy)
         .set("light.sampler", "inverse-cosine")
+        .set("light.boxes", "hit")
         .set("interruption.rule", rule)
         .set("interruption.order", order)
         .set("interruption.weight", weight)

@@ -12,17 +12,7 @@ use crate::support::gate::{Case, Family, Form};
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
-/// Fraction of the light that a sphere of half angle `half` would send if it filled the half-space.
-pub fn form_factor(half: f64, omega: f64) -> f64 {
-    let (s2, cosine) = (half.sin().powi(2), omega.cos());
-    if cosine * cosine >= s2 {
-        return s2 * cosine.max(0.0);
-    }
-    let x = (1.0 / s2 - 1.0).sqrt();
-    let y = -x / omega.tan();
-    let w = omega.sin() * (1.0 - y * y).sqrt();
-    (s2 * (cosine * y.acos() - x * w) + (w / x).atan()) / PI
-}
+pub use crate::support::form::form_factor;
 
 #[test]
 fn the_form_factor_is_known() {
@@ -143,7 +133,8 @@ fn every_sampler_and_strategy_gives_the_form_factor() {
             for (s, sampler) in SAMPLERS.iter().enumerate() {
                 let case = lamp.case().set("light.sampler", sampler);
                 let case = case.set("light.pole", POLES[(n + s) % 3]);
-                if *sampler == "cone" || lamp.half <= WIDEST_FOR_AREA {
+                let by_direction = ["cone", "projected-cap"].contains(sampler);
+                if by_direction || lamp.half <= WIDEST_FOR_AREA {
                     family.check(bench, &case.clone().set("light.strategy", "sample"));
                 }
                 if (n + s + bench as usize).is_multiple_of(2) {

@@ -1,5 +1,5 @@
-//! A box that shines over a floor. Boxes are not sampled: scattered rays find them under every
-//! strategy, with the same expectation.
+//! A box that shines over a floor, found by shadow rays or left to scattered rays: with the same
+//! expectation, under every strategy and by every kernel.
 //!
 //! Light reflected is rho Le F, F the form factor. Straight below the middle of a face with half sizes
 //! a, b at height h, and A = a / h, B = b / h,
@@ -198,6 +198,54 @@ fn every_knob_gives_the_form_factor_of_a_box() {
             check_all(&mut family, bench, &covering(bench), |choice| {
                 choice.pick(panels).case()
             });
+        }
+    }
+    family.finish();
+}
+
+/// Small and far, where points are drawn by area; long and thin; all but touching the floor.
+const HARD: [Panel; 4] = [
+    panel([0.3, 9.0, 0.2], [0.2, 0.1, 0.15], FLAT, [0.0, 0.1]),
+    panel(
+        [0.1, 1.0, 0.0],
+        [1.8, 0.02, 0.02],
+        [0.0, 30.0, 0.0],
+        [0.3, 0.1],
+    ),
+    panel([0.9, 0.501, 0.0], [0.5, 0.5, 0.4], FLAT, [0.2, 0.1]),
+    panel([0.0, 0.07, 0.0], [1.5, 0.05, 1.2], FLAT, [0.9, 0.4]),
+];
+
+#[test]
+fn hard_boxes_have_their_form_factors() {
+    let mut family = Family::new("shining box, hard", 24_000);
+    for bench in benches() {
+        for panel in HARD {
+            for strategy in ["sample", "mis"] {
+                let mut case = panel.case().set("light.boxes", "sample");
+                if panel.center.y < 0.1 {
+                    // Below the panel.
+                    case = case.set("camera.position", "[0.89, 0.015, 0.38]");
+                }
+                family.check(bench, &case.set("light.strategy", strategy));
+            }
+        }
+    }
+    family.finish();
+}
+
+#[test]
+fn every_kernel_samples_boxes() {
+    let mut family = Family::new("shining box, kernels", 25_000);
+    for bench in benches() {
+        for kernel in ["general", "baked", "bvh"] {
+            for panel in [ABOVE[0], ANYWHERE[1], ANYWHERE[3]] {
+                for strategy in ["sample", "mis"] {
+                    let case = panel.case().set("light.boxes", "sample");
+                    let case = case.set("render.kernel", kernel);
+                    family.check(bench, &case.set("light.strategy", strategy));
+                }
+            }
         }
     }
     family.finish();

@@ -181,7 +181,7 @@ fn a_checkpoint_keeps_open_randomisations() {
         let film = of_samples(0..samples, shared);
         let mut record = super::sample::record(0..samples);
         film.describe(&mut record);
-        Checkpoint::save(&folder.join("c"), &record, [0, 999], &film).unwrap();
+        Checkpoint::save(&folder.join("c"), &record, [0, 999], &film, None).unwrap();
         assert_eq!(Checkpoint::read(&folder.join("c")).unwrap().film, film);
     }
 }

@@ -75,6 +75,12 @@ fn scattered(of: &Sampling, bench: Bench, directions: &[DVec3]) -> Vec<f64> {
     probed(of, Probe::EvaluateScatter, &inputs, 3)
 }
 
+/// The numbers of which `unit_sphere` makes a direction.
+fn sphere_place([x, y, z]: [f32; 3]) -> [f32; 2] {
+    let turn = f64::from(y).atan2(x.into()) / TAU;
+    [0.5 * (1.0 - z), (turn + 0.5) as f32]
+}
+
 /// Inverse density by solid angle that a device states for points of the lamp: every direction to
 /// it leads to one.
 fn inverse_lit(of: &Sampling, bench: Bench, outwards: &[DVec3]) -> Vec<f64> {
@@ -91,15 +97,17 @@ fn inverse_lit(of: &Sampling, bench: Bench, outwards: &[DVec3]) -> Vec<f64> {
                 outward: outward.as_vec3(),
             };
             let pole = maths::Basis { x, y, z };
-            light_inverse_density(&of.strategy, lamp, pole, origin, hit).into()
+            let normal = of.job.normal.into();
+            light_inverse_density(&of.strategy, lamp, pole, origin, normal, hit).into()
         };
         return outwards.iter().map(stated).collect();
     }
+    let [z, w] = sphere_place(of.job.normal);
     let input = |outward: &DVec3| ProbeInput {
         a: four(lamp.center, lamp.radius),
         b: four(of.job.receiver, lamp.weight_radius),
         c: four(narrow(*outward), 0.0),
-        d: [of.job.inside as f32, 1.0, 0.0, 0.0],
+        d: [of.job.inside as f32, 1.0, z, w],
     };
     let inputs: Vec<_> = outwards.iter().map(input).collect();
     probed(of, Probe::LightDensity, &inputs, 0)
@@ -133,7 +141,8 @@ fn mass(of: &Sampling, bench: Bench) -> f64 {
 /// sampler of its whole surface, the share that faces the receiver: (1 - 1 / d) / 2 at d radii where
 /// points are even by area (Archimedes), else a quadrature of the definition.
 fn truth(of: &Sampling) -> f64 {
-    let outside = of.job.scattering == 0 && of.job.inside == 0;
+    let by_point = of.strategy.light_test == LightTest::Point;
+    let outside = of.job.scattering == 0 && of.job.inside == 0 && by_point;
     let to = to_receiver(of);
     match of.strategy.light_sampler {
         LightSampler::UniformAngles if outside => {

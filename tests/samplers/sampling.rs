@@ -1,6 +1,6 @@
 //! A sampler, what is asked of it, and what is known of it.
 
-use super::light::{Place, light};
+use super::light::{Place, light, tested};
 use super::rough::rough;
 use super::scatter::{diffuse, directional};
 use crate::support::bench::Bench;
@@ -80,6 +80,11 @@ pub fn samplings() -> Vec<Sampling> {
         for place in [Place::Far, Place::Near, Place::Inside] {
             all.extend([false, true].map(|pole| light(sampler, place, pole)));
         }
+    }
+    for sampler in [LightSampler::UniformAngles, LightSampler::Gaussian] {
+        // With its pole aside the even angles' density by direction has a peak in the midst of the lamp.
+        let object = |place| tested(sampler, place, true, LightTest::Object);
+        all.extend([Place::Far, Place::Near, Place::Inside].map(object));
     }
     all.extend(ScatterDiffuse::ALL.iter().map(|&law| diffuse(law)));
     for &bound in ScatterBound::ALL {

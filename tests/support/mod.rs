@@ -5,6 +5,7 @@
 
 pub mod bench;
 pub mod chance;
+pub mod form;
 pub mod gate;
 pub mod quadrature;
 pub mod same;
@@ -51,10 +52,13 @@ pub fn strategy() -> Strategy {
         filter: Filter::Box,
         light_sampler: LightSampler::Cone,
         light_weight: LightWeight::Pdf,
+        light_test: LightTest::Point,
         light_strategy: LightStrategy::Mis,
         light_choice: LightChoice::All,
         light_direct: LightDirect::Bsdf,
         pole_at_receiver: false,
+        box_lamps: false,
+        background_lamp: false,
         scatter_diffuse: ScatterDiffuse::Cosine,
         scatter_bound: ScatterBound::Truncate,
         interruption_rule: InterruptionRule::Throughput,

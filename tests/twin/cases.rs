@@ -3,6 +3,7 @@
 use crate::inputs::*;
 use crate::support::strategy;
 use glam::{Vec2, Vec3, Vec4};
+use lampray::cpu::r#box::box_world;
 use lampray::cpu::r#box::{box_face, intersect_box, safe_inverse};
 use lampray::cpu::interruption::{survival_probability, survival_weight};
 use lampray::cpu::light::{LampHit, light_inverse_density, power_heuristic, sample_light};
@@ -10,10 +11,11 @@ use lampray::cpu::light_tree::{LightPair, WHOLE_SHARE, first_share};
 use lampray::cpu::maths::*;
 use lampray::cpu::random::{random_bits, random_key, random_unit};
 use lampray::cpu::ray::{Crossing, Ray};
+use lampray::cpu::rectangle::{box_inverse_density, sample_box};
 use lampray::cpu::sphere::intersect_sphere;
 use lampray::cpu::{camera, scatter};
 use lampray::knobs::*;
-use lampray::pack::{Lamp, Material, ProbeInput, Strategy};
+use lampray::pack::{Cuboid, Lamp, Material, ProbeInput, Strategy};
 use lampray::shader::Probe;
 use std::f64::consts::PI;
 
@@ -56,8 +58,13 @@ pub fn all() -> Vec<Case> {
     let scatters = scatters.flat_map(|s| [sample_scatter_case(s), evaluate_scatter_case(s)]);
     let lights = light_strategies();
     let lights = lights.flat_map(|s| [sample_light_case(s), light_density_case(s)]);
+    let boxes = [sample_box_case(), box_density_case()];
     let survivals = survival_strategies().map(survival);
-    let many = films.chain(scatters).chain(lights).chain(survivals);
+    let many = films
+        .chain(scatters)
+        .chain(lights)
+        .chain(boxes)
+        .chain(survivals);
     single
         .into_iter()
         .chain(many)
@@ -555,14 +562,20 @@ fn evaluate_scatter_case(of: Strategy) -> Case {
 fn light_strategies() -> impl Iterator<Item = Strategy> {
     let samplers = LightSampler::ALL.iter();
     let weighted = samplers.flat_map(|&a| LightWeight::ALL.iter().map(move |&b| (a, b)));
-    weighted.flat_map(|(light_sampler, light_weight)| {
+    let points = weighted.flat_map(|(light_sampler, light_weight)| {
         [false, true].map(|pole_at_receiver| Strategy {
             light_sampler,
             light_weight,
             pole_at_receiver,
             ..strategy()
         })
-    })
+    });
+    let objects = LightSampler::ALL.iter().map(|&light_sampler| Strategy {
+        light_sampler,
+        light_test: LightTest::Object,
+        ..strategy()
+    });
+    points.chain(objects)
 }
 
 fn light_name(strategy: &Strategy) -> String {
@@ -572,8 +585,8 @@ fn light_name(strategy: &Strategy) -> String {
         "axis"
     };
     format!(
-        "{} {} {pole}",
-        strategy.light_sampler, strategy.light_weight
+        "{} {} {pole} {}",
+        strategy.light_sampler, strategy.light_weight, strategy.light_test
     )
 }
 
@@ -586,6 +599,11 @@ fn lamp_of(input: &ProbeInput) -> Lamp {
         weight_radius: input.b[3],
         ..Lamp::default()
     }
+}
+
+/// The lit surface's normal.
+fn normal_of(input: &ProbeInput) -> Vec3 {
+    unit_sphere(Vec2::new(input.d[2], input.d[3]))
 }
 
 fn pole() -> Basis {
@@ -617,6 +635,9 @@ fn gaussian_error(input: &ProbeInput) -> f64 {
 /// How far the distance to a cone's point may be off: at the lamp's rim the half chord is the root
 /// of a difference of nearly equal numbers.
 fn cone_error(of: &Strategy, input: &ProbeInput) -> f64 {
+    if of.light_sampler == LightSampler::ProjectedCap {
+        return f64::from(input.a[3]) * (16.0 * UNIT).sqrt();
+    }
     if of.light_sampler != LightSampler::Cone {
         return 0.0;
     }
@@ -624,11 +645,25 @@ fn cone_error(of: &Strategy, input: &ProbeInput) -> f64 {
     radius * (16.0 * UNIT / left.sqrt()).min((16.0 * UNIT).sqrt())
 }
 
+/// What a projected direction's errors grow with, given the direction: its weight goes as one over the height above
+/// the horizon, and how much of the lamp that leaves to be seen is told in lamp radii.
+fn grazing(of: &Strategy, input: &ProbeInput, direction: Vec3) -> f64 {
+    if of.light_sampler != LightSampler::ProjectedCap {
+        return 1.0;
+    }
+    let up = f64::from(direction.dot(normal_of(input)));
+    let away = f64::from(xyz(input.a).distance(xyz(input.b)) / input.a[3]);
+    1.0 + 4.0 / up.abs().max(1e-7) + 4.0 * away
+}
+
 fn sample_light_case(of: Strategy) -> Case {
     let inputs = many(13, |place, stream| {
         let (made, _) = lamp_and_origin(place, stream);
+        let c = [0, 1, 2, 3].map(|turn| unit(place, turn, stream));
+        let [z, w] = [(); 2].map(|()| stream.unit() as f32);
         ProbeInput {
-            c: [0, 1, 2, 3].map(|turn| unit(place, turn, stream)),
+            c,
+            d: [made.d[0], 0.0, z, w],
             ..made
         }
     });
@@ -640,6 +675,7 @@ fn sample_light_case(of: Strategy) -> Case {
             &lamp,
             pole(),
             xyz(input.b),
+            normal_of(input),
             inside,
             Vec4::from(input.c),
         );
@@ -653,12 +689,14 @@ fn sample_light_case(of: Strategy) -> Case {
         if of.light_sampler == LightSampler::Gaussian {
             spread *= 1.0 + gaussian_error(input);
         }
-        let direction = 8.0 * UNIT * spread;
+        let grazing = grazing(&of, input, Vec3::new(wanted[0], wanted[1], wanted[2]));
+        let direction = 8.0 * UNIT * spread * grazing.min(64.0);
         // A far point's near side is a difference of two distances.
         let reach = f64::from(wanted[3]).max(1e-3 * f64::from(input.a[3]));
         let cone = cone_error(&of, input);
         let distance = 8.0 * UNIT * spread * reach + cone;
-        let weight = (8.0 * UNIT * spread + 4.0 * cone / reach) * (largest + f64::from(wanted[4]));
+        let weight =
+            (8.0 * UNIT * spread * grazing + 4.0 * cone / reach) * (largest + f64::from(wanted[4]));
         [
             direction, direction, direction, distance, weight, weight, 0.0, 0.0,
         ]
@@ -685,7 +723,12 @@ fn light_density_case(of: Strategy) -> Case {
         let ratio = [0.0, 1.0, 1e15, 1e30, stream.scale(1e-6, 1e6) as f32][place % 5];
         ProbeInput {
             c: outward,
-            d: [f32::from(u8::from(inside)), ratio, 0.0, 0.0],
+            d: [
+                f32::from(u8::from(inside)),
+                ratio,
+                unit(place, 2, stream),
+                unit(place, 3, stream),
+            ],
             ..made
         }
     });
@@ -699,14 +742,20 @@ fn light_density_case(of: Strategy) -> Case {
             distance,
             outward: xyz(input.c),
         };
-        let density = light_inverse_density(&of, &lamp, pole(), xyz(input.b), hit);
+        let density =
+            light_inverse_density(&of, &lamp, pole(), xyz(input.b), normal_of(input), hit);
         eight(&[&[density, power_heuristic(input.d[1])]])
     };
-    let tolerance = |input: &ProbeInput, _: &[f32; 8]| {
+    let tolerance = move |input: &ProbeInput, wanted: &[f32; 8]| {
         let point = xyz(input.a) + input.a[3] * xyz(input.c);
         let (spread, largest) = light_error(input, f64::from(point.distance(xyz(input.b))));
+        let direction = (point - xyz(input.b)).normalize();
+        let (grazing, projected) = match of.light_sampler {
+            LightSampler::ProjectedCap => (grazing(&of, input, direction), f64::from(wanted[0])),
+            _ => (1.0, 0.0),
+        };
         [
-            8.0 * UNIT * spread * largest,
+            8.0 * UNIT * spread * grazing * (largest + projected),
             4.0 * UNIT,
             0.0,
             0.0,
@@ -729,6 +778,138 @@ fn light_density_case(of: Strategy) -> Case {
         strays: 8,
         ..made
     }
+}
+
+/// The probe's box, and whether the receiver is in it.
+fn box_of(input: &ProbeInput) -> (Cuboid, bool) {
+    let axes = pole();
+    let shape = Cuboid {
+        half_size: xyz(input.a).to_array(),
+        axis_x: axes.x.to_array(),
+        axis_y: axes.y.to_array(),
+        axis_z: axes.z.to_array(),
+        ..Cuboid::default()
+    };
+    (shape, input.d[0] == 1.0)
+}
+
+/// A box and a receiver, in the box's own axes: inside, near, or farther off.
+fn box_and_receiver(
+    place: usize,
+    stream: &mut crate::support::stream::Stream,
+) -> (ProbeInput, Vec3) {
+    let scale = stream.scale(1e-2, 1e2);
+    let half = Vec3::from([0; 3].map(|_| (scale * stream.scale(0.1, 1.0)) as f32));
+    let inside = place.is_multiple_of(3);
+    let reach = if inside { 0.98 } else { 6.0 };
+    let mut local = Vec3::from([0; 3].map(|_| stream.between(-reach, reach) as f32));
+    if !inside && local.abs().max_element() < 1.05 {
+        local.x = 1.5;
+    }
+    let (shape, _) = box_of(&ProbeInput {
+        a: half.extend(0.0).to_array(),
+        ..ProbeInput::default()
+    });
+    let made = ProbeInput {
+        a: half.extend(0.0).to_array(),
+        b: box_world(&shape, local * half).extend(0.0).to_array(),
+        d: [f32::from(u8::from(inside)), 0.0, 0.0, 0.0],
+        ..ProbeInput::default()
+    };
+    (made, local * half)
+}
+
+/// Rounding of angles of a turn grows as one over the part of it that a face is, where it is not drawn by area.
+fn sample_box_case() -> Case {
+    let inputs = many(17, |place, stream| {
+        let (made, _) = box_and_receiver(place, stream);
+        ProbeInput {
+            c: [0, 1, 2, 3].map(|turn| unit(place, turn, stream)),
+            ..made
+        }
+    });
+    let twin = |input: &ProbeInput| {
+        let (shape, inside) = box_of(input);
+        let drawn = sample_box(&shape, xyz(input.b), inside, Vec4::from(input.c));
+        let lanes: [&[f32]; 2] = [
+            &drawn.direction.to_array(),
+            &[drawn.distance, drawn.inverse_density],
+        ];
+        eight(&lanes)
+    };
+    let tolerance = |_: &ProbeInput, wanted: &[f32; 8]| {
+        let (distance, inverse) = (f64::from(wanted[3]), f64::from(wanted[4]));
+        let direction = 1e-3;
+        let density = 1e-5 * inverse + 2.0 * UNIT * inverse / direction;
+        [
+            direction,
+            direction,
+            direction,
+            1e-2 * distance,
+            density,
+            0.0,
+            0.0,
+            0.0,
+        ]
+    };
+    let made = case(
+        "sample_box",
+        Probe::SampleBox,
+        inputs,
+        Box::new(twin),
+        Box::new(tolerance),
+    );
+    Case { strays: 80, ..made }
+}
+
+fn box_density_case() -> Case {
+    let inputs = many(18, |place, stream| {
+        let (made, local) = box_and_receiver(place, stream);
+        let half = xyz(made.a);
+        let mut point = Vec3::from([0; 3].map(|_| stream.between(-0.99, 0.99) as f32));
+        // A face that is seen: across an axis along which the receiver is outside, or any from inside.
+        let beyond = (0..3).find(|&axis| local[axis].abs() > 1.01 * half[axis]);
+        let axis = beyond.unwrap_or(place % 3);
+        let side = match beyond {
+            Some(axis) => local[axis].signum(),
+            None => [-1.0, 1.0][place / 3 % 2],
+        };
+        point[axis] = side;
+        ProbeInput {
+            c: (point * half).extend(0.0).to_array(),
+            d: [
+                made.d[0],
+                (2 * axis + usize::from(side > 0.0)) as f32,
+                0.0,
+                0.0,
+            ],
+            ..made
+        }
+    });
+    let twin = |input: &ProbeInput| {
+        let (shape, inside) = box_of(input);
+        let number = input.d[1] as usize;
+        let side = if number % 2 == 1 { 1.0 } else { -1.0 };
+        let outward = box_world(&shape, side * [Vec3::X, Vec3::Y, Vec3::Z][number / 2]);
+        let to = box_world(&shape, xyz(input.c)) - xyz(input.b);
+        eight(&[&[box_inverse_density(
+            &shape,
+            xyz(input.b),
+            inside,
+            to,
+            outward,
+        )]])
+    };
+    // A face seen from the side has a height of few digits.
+    let tolerance = |_: &ProbeInput, wanted: &[f32; 8]| wanted.map(|x| 1e-4 * f64::from(x));
+    let made = case(
+        "box_density",
+        Probe::BoxDensity,
+        inputs,
+        Box::new(twin),
+        Box::new(tolerance),
+    );
+    Case { strays: 8, ..made }
 }
 
 fn survival_strategies() -> impl Iterator<Item = Strategy> {

@@ -48,7 +48,7 @@ impl Element for Cuboid {
             vector(self.axis_x),
             whole(self.body),
             vector(self.axis_y),
-            whole(self._pad0),
+            whole(self.lamp),
             vector(self.axis_z),
             whole(self._pad1),
         ]
@@ -82,9 +82,9 @@ impl Element for Lamp {
             vector(self.emission),
             whole(self.body),
             number(self.weight_radius),
+            whole(self.shape),
             whole(self._pad0),
             whole(self._pad1),
-            whole(self._pad2),
         ]
     }
 }
