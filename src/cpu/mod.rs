@@ -3,14 +3,17 @@
 //! is what the shaders are checked against.
 
 pub mod r#box;
+pub mod branch;
 pub mod bvh;
 pub mod camera;
 pub mod canary;
+pub mod efficiency;
 pub mod four;
 pub mod interruption;
 pub mod light;
 pub mod loops;
 pub mod maths;
+pub mod pilot;
 pub mod points;
 pub mod random;
 pub mod ray;

@@ -41,6 +41,6 @@ pub use picture::{Aov, Features, Picture};
 pub use raster::{Noise, Pixels, Raster, Transfer};
 pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
-pub use record::{Record, Seconds, Stop};
+pub use record::{PilotRecord, Record, Seconds, Stop};
 pub use relative::RelativeError;
 pub use text::SCENE_TEXT_LIMIT;

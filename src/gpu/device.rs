@@ -253,6 +253,7 @@ fn array_bytes(array: &SceneArray, scene: &Packed) -> Vec<u8> {
         ("sphere_at", _) => padded(&scene.spheres, length),
         ("box_at", _) => padded(&scene.boxes, length),
         ("lamp_at", _) => padded(&scene.lamps, length),
+        ("worth_at", _) => padded(&scene.worths, length),
         ("outside_sphere_at", Some(all)) => padded(&all.spheres, length),
         ("outside_box_at", Some(all)) => padded(&all.boxes, length),
         ("node_at", Some(all)) => padded(&all.tree.nodes, length),

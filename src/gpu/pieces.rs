@@ -51,7 +51,7 @@ impl Allowance {
     /// None where a device cannot take a single step of the scene.
     pub fn new(device: &DeviceInfo, scene: &Packed) -> Option<Self> {
         if !stops_early(device) {
-            let samples = (LONG_LANE / (u64::from(scene.max_bounces) + 1)).max(1);
+            let samples = (LONG_LANE / scene.longest_path()).max(1);
             return Some(Self {
                 steps: u32::MAX,
                 samples: 1 << samples.ilog2(),
@@ -64,7 +64,7 @@ impl Allowance {
             return Self::in_tree(scene);
         }
         let steps = SOFTWARE_ITERATIONS / iterations(scene);
-        let samples = (steps / (u64::from(scene.max_bounces) + 1)).max(1);
+        let samples = (steps / scene.longest_path()).max(1);
         (steps > 0).then_some(Self {
             steps: steps as u32,
             samples: 1 << samples.ilog2(),

@@ -32,6 +32,8 @@ pub struct Strategy {
     pub interruption_rule: InterruptionRule,
     pub interruption_weight: InterruptionWeight,
     pub interruption_order: InterruptionOrder,
+    /// What a path may split into; 1 by every rule that splits none.
+    pub interruption_split: u32,
     pub last_ray: LastRay,
     pub sphere_count: u32,
     pub box_count: u32,
@@ -59,6 +61,7 @@ impl Strategy {
             interruption_rule: settings.interruption.rule,
             interruption_weight: settings.interruption.weight,
             interruption_order: settings.interruption.order,
+            interruption_split: split(&settings.interruption),
             last_ray: last_ray(scene),
             sphere_count: spheres,
             box_count: boxes,
@@ -71,7 +74,7 @@ impl Strategy {
     }
 
     /// Names and values of all override constants of all kernels.
-    pub fn overrides(&self) -> [(&'static str, u32); 19] {
+    pub fn overrides(&self) -> [(&'static str, u32); 20] {
         [
             ("FILTER", self.filter.index()),
             ("LIGHT_SAMPLER", self.light_sampler.index()),
@@ -84,6 +87,7 @@ impl Strategy {
             ("INTERRUPTION_RULE", self.interruption_rule.index()),
             ("INTERRUPTION_WEIGHT", self.interruption_weight.index()),
             ("INTERRUPTION_ORDER", self.interruption_order.index()),
+            ("INTERRUPTION_SPLIT", self.interruption_split),
             ("LAST_RAY", self.last_ray.index()),
             ("SPHERE_COUNT", self.sphere_count),
             ("BOX_COUNT", self.box_count),
@@ -93,6 +97,13 @@ impl Strategy {
             ("OUTSIDE_BOX_COUNT", self.outside_box_count),
             ("OUTSIDE_ROTATED_COUNT", self.outside_rotated_count),
         ]
+    }
+}
+
+fn split(interruption: &Interruption) -> u32 {
+    match interruption.rule {
+        InterruptionRule::Efficiency => interruption.split,
+        _ => 1,
     }
 }
 

@@ -16,13 +16,16 @@ pub use picture::{picture, record, scene_hash};
 pub use plan::Plan;
 pub use rendering::Rendering;
 
+use crate::cpu::pilot::Pilot;
 use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::Stop;
-use crate::pack::{Rect, Traversal};
+use crate::knobs::InterruptionRule;
+use crate::pack::{Packed, Rect, Traversal};
 use crate::scene::Scene;
 use feed::{Fed, feed};
 use std::ops::{ControlFlow, Range};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
@@ -46,6 +49,8 @@ pub struct Task<'a> {
     /// The error, relative to the mean, at which the render may stop before its last sample: see
     /// [`crate::film::Film::relative_error`].
     pub target_error: Option<f64>,
+    /// What [`Task::pilot`] found, once somebody has asked.
+    pub pilot: OnceLock<Pilot>,
 }
 
 impl<'a> Task<'a> {
@@ -58,6 +63,7 @@ impl<'a> Task<'a> {
             features: false,
             traversal: Traversal::of(scene),
             target_error: None,
+            pilot: OnceLock::new(),
         }
     }
 
@@ -72,6 +78,29 @@ impl<'a> Task<'a> {
 }
 
 impl Task<'_> {
+    /// What the pilot of the rule `efficiency` finds, for the picture as a whole; none by any other rule. It is
+    /// traced when somebody first asks, by the CPU twin whatever the device.
+    pub fn pilot(&self) -> Option<&Pilot> {
+        let (image, interruption) = (
+            &self.scene.settings.image,
+            &self.scene.settings.interruption,
+        );
+        let trace = || {
+            let packed = Packed::by(self.scene, self.traversal);
+            Pilot::new(&packed, [image.width, image.height])
+        };
+        (interruption.rule == InterruptionRule::Efficiency).then(|| self.pilot.get_or_init(trace))
+    }
+
+    /// The scene as devices take it.
+    pub fn packed(&self) -> Packed {
+        let mut packed = Packed::by(self.scene, self.traversal);
+        if let Some(pilot) = self.pilot() {
+            packed.worths.clone_from(&pilot.worths);
+        }
+        packed
+    }
+
     /// Paths of all of it.
     pub fn paths(&self) -> u64 {
         let samples = self.samples.end - self.samples.start;

@@ -2,7 +2,7 @@
 
 use super::{Rendering, Task, whole};
 use crate::device::DeviceInfo;
-use crate::film::{Aov, Features, Film, Picture, Record, Seconds};
+use crate::film::{Aov, Features, Film, Picture, PilotRecord, Record, Seconds};
 
 /// Identifies a scene's text in records.
 pub fn scene_hash(text: &str) -> String {
@@ -35,6 +35,11 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         preset: settings.preset.to_string(),
         knobs: scene.knobs.clone(),
         kernel: device.traversal(task.traversal).to_string(),
+        pilot: task.pilot().map(|pilot| PilotRecord {
+            hash: pilot.hash(),
+            paths: pilot.paths,
+            rays: pilot.rays,
+        }),
         device: device.clone(),
         devices: if several {
             rendering.devices.clone()

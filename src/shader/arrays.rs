@@ -7,6 +7,10 @@ use crate::pack::{self, Packed, Traversal};
 /// Uniform buffers of this many bytes work on every device; larger scenes go into storage buffers.
 const UNIFORM_BYTES: usize = 16 * 1024;
 
+/// For scenes of which nobody asks it: the function is there, and is never called.
+const NO_WORTHS: &str =
+    "fn worth_at(index: u32) -> Worth {\n    return Worth(vec3<f32>(0.0), vec3<f32>(0.0));\n}\n";
+
 /// Lengths of the scene's arrays on the device, which the shader's declarations depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SceneArrays {
@@ -14,6 +18,8 @@ pub struct SceneArrays {
     pub spheres: usize,
     pub boxes: usize,
     pub lamps: usize,
+    /// 0 where no rule asks what the rays that leave a body are worth.
+    pub worths: usize,
     /// Entries of the tree; 0 where rays find bodies without one.
     pub nodes: usize,
     /// Bodies outside the tree.
@@ -74,6 +80,7 @@ impl SceneArrays {
                 spheres: room(packed.spheres.len()),
                 boxes: room(packed.boxes.len()),
                 lamps: room(packed.lamps.len()),
+                worths: packed.worths.len(),
                 nodes,
                 outside_spheres: spheres,
                 outside_boxes: boxes,
@@ -95,12 +102,14 @@ impl SceneArrays {
         }
     }
 
-    fn small(&self) -> [SceneArray; 3] {
-        [
+    fn small(&self) -> Vec<SceneArray> {
+        let all = [
             SceneArray::new::<pack::Material>("material_at", "Material", self.materials),
             SceneArray::new::<pack::Cuboid>("box_at", "Box", self.boxes),
             SceneArray::new::<pack::Lamp>("lamp_at", "Lamp", self.lamps),
-        ]
+            SceneArray::new::<pack::Worth>("worth_at", "Worth", self.worths),
+        ];
+        all.into_iter().filter(|array| array.length > 0).collect()
     }
 
     fn spheres(&self) -> SceneArray {
@@ -173,6 +182,9 @@ impl SceneArrays {
             let read = |array: &SceneArray| array.accessor(&format!("scene_data.{}_", array.name));
             let here = uniform.iter().filter(|array| is_here(array));
             text.extend(here.map(read));
+        }
+        if self.worths == 0 {
+            text += NO_WORTHS;
         }
         let first = usize::from(!uniform.is_empty());
         for (binding, array) in (first..).zip(&storage) {

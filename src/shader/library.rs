@@ -11,9 +11,11 @@ macro_rules! library {
 library!(
     "baked",
     "box",
+    "branch",
     "bvh",
     "camera",
     "canary",
+    "efficiency",
     "features",
     "interruption",
     "light",

@@ -59,6 +59,7 @@ pub fn strategy() -> Strategy {
         interruption_rule: InterruptionRule::Throughput,
         interruption_weight: InterruptionWeight::Compensated,
         interruption_order: InterruptionOrder::AfterDirect,
+        interruption_split: 1,
         last_ray: LastRay::Always,
         sphere_count: 0,
         box_count: 0,
