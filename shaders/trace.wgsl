@@ -174,12 +174,14 @@ fn continuations(path: Path, surface: Surface) -> f32 {
     return wanted_continuations(worth_at(surface.body - 1u), path.throughput, f32(branches_allowed));
 }
 
-// The path goes on as that many, each with its share of the throughput.
+// The path goes on as that many, each with its share of the throughput: that of the whole number, so that splitting
+// adds no noise of its own.
 fn split_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, wanted: f32, u: f32) {
-    (*path).throughput /= wanted;
+    let count = count_continuations(wanted, u);
+    (*path).throughput /= f32(count);
     let branching = Branching(
         (*path).key, (*path).vertex, (*path).throughput, (*path).ray.direction, surface, origin, 0u, 0u);
-    open_branching(branching, count_continuations(wanted, u));
+    open_branching(branching, count);
 }
 
 // A path that has ended goes on as its next branch; false where it has no more.

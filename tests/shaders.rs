@@ -48,7 +48,7 @@ fn array_sets() -> Vec<SceneArrays> {
 }
 
 /// How many values each knob of a strategy has, in the order that [`spelled`] reads them.
-const VALUES: [usize; 12] = [2, 4, 2, 3, 2, 2, 2, 2, 4, 2, 2, 3];
+const VALUES: [usize; 12] = [2, 4, 2, 3, 2, 2, 2, 2, 5, 2, 2, 3];
 
 fn spelled(row: &[usize; 12]) -> Strategy {
     Strategy {

@@ -9,6 +9,8 @@ mod support;
 
 #[path = "twin/cases.rs"]
 mod cases;
+#[path = "twin/efficiency.rs"]
+mod efficiency;
 #[path = "twin/inputs.rs"]
 mod inputs;
 #[path = "twin/reference.rs"]

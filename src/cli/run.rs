@@ -57,6 +57,9 @@ impl Run<'_> {
             ..Task::new(self.scene)
         };
         render::refuse_too_large(&task)?;
+        for line in self.scene.unbounded_lines() {
+            remark(&format!("warning: {line}"), output);
+        }
         let targets = Target::prepare_all(&self.outputs)?;
         let mut device = self.open(output)?;
         let wanted = render::record(&task, device.info(), &Rendering::new(&task));

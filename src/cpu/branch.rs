@@ -17,12 +17,16 @@ pub struct Branching {
     /// Branches that have not left yet, and what each may become.
     pub left: u32,
     pub allowed: u32,
+    /// The hit's number among those that somebody watches.
+    pub hit: u32,
 }
 
 /// What left a hit of a body and came back, for a path that carried one.
 #[derive(Clone, Copy, Debug)]
 pub struct Return {
     pub body: u32,
+    /// The hit that it left, of all hits that somebody watched.
+    pub hit: u32,
     pub radiance: Vec3,
     pub rays: u32,
 }
@@ -31,6 +35,7 @@ pub struct Return {
 #[derive(Clone, Copy, Debug)]
 struct Leaving {
     body: u32,
+    hit: u32,
     throughput: Vec3,
     radiance: Vec3,
     rays: u32,
@@ -41,6 +46,7 @@ struct Leaving {
 /// Branches that left and came back.
 #[derive(Debug, Default)]
 struct Returns {
+    hits: u32,
     away: Vec<Leaving>,
     back: Vec<Return>,
 }
@@ -53,14 +59,26 @@ pub struct Branches {
     pub allowed: u32,
     /// Where somebody asks what each branch brought.
     returns: Option<Returns>,
+    /// Whether paths split in two wherever they may.
+    twins: bool,
 }
 
 impl Branches {
-    /// Of somebody who asks what each branch brings.
-    pub fn watched() -> Self {
+    /// Of somebody who asks what each branch brings. Where `twins` are wanted paths split in two wherever they may:
+    /// two branches of one hit tell how much of what they bring is chance.
+    pub fn watched(twins: bool) -> Self {
         Self {
             returns: Some(Returns::default()),
+            twins,
             ..Self::default()
+        }
+    }
+
+    /// How many branches should leave, for a hit that asks for so many.
+    pub fn wanted(&self, asked: f32) -> f32 {
+        match self.twins && self.allowed > 1 {
+            true => 2.0,
+            false => asked,
         }
     }
 
@@ -101,14 +119,24 @@ impl Branches {
         Some(Branching { key, ..branching })
     }
 
-    /// A branch with this throughput leaves a body. The path's radiance is counted from zero until it is back,
+    /// A number for a hit that somebody watches.
+    pub fn number_hit(&mut self) -> u32 {
+        self.returns.as_mut().map_or(0, |returns| {
+            returns.hits += 1;
+            returns.hits
+        })
+    }
+
+    /// A branch with this throughput leaves a hit of a body. The path's radiance is counted from zero until it is back,
     /// so that what a branch of little weight brings keeps its digits.
-    pub fn leave(&mut self, body: u32, throughput: Vec3, radiance: &mut Vec3, rays: u32) {
+    pub fn leave(&mut self, from: (u32, u32), throughput: Vec3, radiance: &mut Vec3, rays: u32) {
+        let (body, hit) = from;
         let Some(returns) = &mut self.returns else {
             return;
         };
         returns.away.push(Leaving {
             body,
+            hit,
             throughput,
             radiance: std::mem::take(radiance),
             rays,
@@ -127,6 +155,7 @@ impl Branches {
             let share = *radiance / leaving.throughput;
             returns.back.push(Return {
                 body: leaving.body,
+                hit: leaving.hit,
                 radiance: Vec3::select(leaving.throughput.cmpgt(Vec3::ZERO), share, Vec3::ZERO),
                 rays: rays - leaving.rays,
             });

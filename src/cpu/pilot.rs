@@ -18,11 +18,12 @@ use crate::pack::{Packed, Rect, Worth};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// Rounds of learning: each traces by what the one before it learnt, and the last one is kept.
-const ROUNDS: u64 = 3;
-/// Pixels that a round looks at, spread over the picture, and samples of each.
-const PLACES: u32 = 1024;
+/// Rounds of learning, each by what was learnt before it, and how many pixels it looks at, spread over the picture.
+/// The first knows nothing and is soon forgotten; the last two are kept together.
+const ROUNDS: [u32; 6] = [512, 512, 1024, 1024, 2048, 2048];
+/// Samples of each pixel, and samples that split in two wherever they may.
 const SAMPLES: u64 = 4;
+const TWINS: u64 = 2;
 /// Places that are traced before anybody counts the rays.
 const WAVE: u32 = 16;
 /// A round ends early when it has taken so many rays.
@@ -55,12 +56,19 @@ impl Pilot {
             max_bounces: scene.max_bounces.min(MOST_BOUNCES),
             ..scene.clone()
         };
+        let bodies = scene.worths.len();
         let (mut paths, mut rays) = (0, 0);
-        for round in 0..ROUNDS {
-            let learnt = learn(&scene, image, round);
-            paths += learnt.paths;
-            rays += learnt.rays;
-            scene.worths = learnt.worths(scene.worths.len());
+        let mut learnt = Learnt::new(bodies);
+        for (round, places) in (0..).zip(ROUNDS) {
+            let new = learn(&scene, image, (round, places));
+            paths += new.paths / SAMPLES * (SAMPLES + TWINS);
+            rays += new.rays + new.twin_rays;
+            if round as usize + 1 < ROUNDS.len() {
+                learnt = new;
+            } else {
+                learnt.join(&new);
+            }
+            scene.worths = learnt.worths(scene.worths);
         }
         Self {
             worths: scene.worths,
@@ -75,19 +83,20 @@ impl Pilot {
     }
 }
 
-fn learn(scene: &Packed, image: [u32; 2], round: u64) -> Learnt {
+/// One round: its number, and how many places it looks at.
+fn learn(scene: &Packed, image: [u32; 2], round: (u64, u32)) -> Learnt {
     match &scene.hierarchy {
         Some(hierarchy) => learn_among(scene, &ByTree { scene, hierarchy }, image, round),
         None => learn_among(scene, &four::Bodies::new(scene), image, round),
     }
 }
 
-/// One round. Paths of a wave are traced side by side and added in order.
+/// Paths of a wave are traced side by side and added in order.
 fn learn_among<T: Traversal + Sync>(
     scene: &Packed,
     bodies: &T,
     image: [u32; 2],
-    round: u64,
+    (round, places): (u64, u32),
 ) -> Learnt {
     let nowhere = Rect {
         x0: 0,
@@ -98,16 +107,16 @@ fn learn_among<T: Traversal + Sync>(
     let job = scene.job(nowhere, 0, 1);
     let tracer = Tracer::new(scene, bodies, &job);
     let mut learnt = Learnt::new(scene.worths.len());
-    for wave in (0..PLACES).step_by(WAVE as usize) {
+    for wave in (0..places).step_by(WAVE as usize) {
         let traced: Vec<_> = (wave..wave + WAVE)
             .into_par_iter()
             .map(|place| {
-                let first = (round * u64::from(PLACES) + u64::from(place)) * SAMPLES;
+                let first = ((round << 32) + u64::from(place)) * (SAMPLES + TWINS);
                 trace_place(&tracer, pixel_of(image, place), first)
             })
             .collect();
         traced.iter().for_each(|place| learnt.add(place));
-        if learnt.rays >= MOST_RAYS {
+        if learnt.rays + learnt.twin_rays >= MOST_RAYS {
             break;
         }
     }
@@ -119,14 +128,19 @@ struct Place {
     samples: Vec<Vec3>,
     rays: u64,
     returns: Vec<Return>,
+    /// Of the samples that split in two, whose rays are `twin_rays`.
+    twins: Vec<Return>,
+    twin_rays: u64,
 }
 
 fn trace_place<T: Traversal>(tracer: &Tracer<T>, pixel: [u32; 2], first: u64) -> Place {
-    let mut branches = Branches::watched();
+    let mut branches = Branches::watched(false);
     let mut traced = Place {
         samples: Vec::new(),
         rays: 0,
         returns: Vec::new(),
+        twins: Vec::new(),
+        twin_rays: 0,
     };
     for sample in first..first + SAMPLES {
         let (radiance, rays) = tracer.sample_by(pixel, sample, &mut branches);
@@ -134,6 +148,12 @@ fn trace_place<T: Traversal>(tracer: &Tracer<T>, pixel: [u32; 2], first: u64) ->
         traced.rays += u64::from(rays);
     }
     traced.returns = branches.returned();
+    let mut branches = Branches::watched(true);
+    for sample in first + SAMPLES..first + SAMPLES + TWINS {
+        let (_, rays) = tracer.sample_by(pixel, sample, &mut branches);
+        traced.twin_rays += u64::from(rays);
+    }
+    traced.twins = branches.returned();
     traced
 }
 
@@ -151,25 +171,34 @@ fn pixel_of(image: [u32; 2], place: u32) -> [u32; 2] {
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     count: f64,
-    radiance: DVec3,
     squares: DVec3,
     rays: f64,
+    /// Pairs that left the same hit, and the sum of half of the squares of how far apart they were.
+    pairs: f64,
+    apart: DVec3,
 }
 
 impl Sums {
     fn add(&mut self, other: &Self) {
         self.count += other.count;
-        self.radiance += other.radiance;
         self.squares += other.squares;
         self.rays += other.rays;
+        self.pairs += other.pairs;
+        self.apart += other.apart;
     }
 
-    fn times(&self, factor: f64) -> Self {
+    /// The mean of all as that of few.
+    fn borrowed(&self) -> Self {
+        let (rays, pairs) = (
+            BORROWED / self.count.max(1.0),
+            BORROWED / self.pairs.max(1.0),
+        );
         Self {
-            count: factor * self.count,
-            radiance: factor * self.radiance,
-            squares: factor * self.squares,
-            rays: factor * self.rays,
+            count: rays * self.count,
+            squares: rays * self.squares,
+            rays: rays * self.rays,
+            pairs: pairs * self.pairs,
+            apart: pairs * self.apart,
         }
     }
 }
@@ -182,6 +211,7 @@ struct Learnt {
     places: f64,
     paths: u64,
     rays: u64,
+    twin_rays: u64,
 }
 
 impl Learnt {
@@ -192,6 +222,7 @@ impl Learnt {
             places: 0.0,
             paths: 0,
             rays: 0,
+            twin_rays: 0,
         }
     }
 
@@ -204,30 +235,50 @@ impl Learnt {
             let radiance = back.radiance.as_dvec3();
             self.bodies[back.body as usize - 1].add(&Sums {
                 count: 1.0,
-                radiance,
                 squares: radiance * radiance,
                 rays: back.rays.into(),
+                ..Sums::default()
+            });
+        }
+        for (one, other) in pairs(&place.twins) {
+            let apart = (one.radiance - other.radiance).as_dvec3();
+            self.bodies[one.body as usize - 1].add(&Sums {
+                pairs: 1.0,
+                apart: 0.5 * apart * apart,
+                ..Sums::default()
             });
         }
         self.paths += place.samples.len() as u64;
         self.rays += place.rays;
+        self.twin_rays += place.twin_rays;
         if place.samples.iter().all(|sample| sample.is_finite()) {
             self.variance += variance(&place.samples);
             self.places += 1.0;
         }
     }
 
+    /// What another round found is known too.
+    fn join(&mut self, other: &Self) {
+        let bodies = self.bodies.iter_mut().zip(&other.bodies);
+        bodies.for_each(|(one, other)| one.add(other));
+        self.variance += other.variance;
+        self.places += other.places;
+        self.paths += other.paths;
+        self.rays += other.rays;
+        self.twin_rays += other.twin_rays;
+    }
+
     /// The worth of each body: its variance and second moment over its cost, by the picture's cost over its
-    /// variance. Where the picture has no variance nothing is known.
-    fn worths(&self, bodies: usize) -> Vec<Worth> {
+    /// variance. Where the picture has no variance there is nothing to learn: what was known `before` made it so.
+    fn worths(&self, before: Vec<Worth>) -> Vec<Worth> {
         let cost = self.rays as f64 / self.paths.max(1) as f64;
         let picture = cost * self.places / self.variance;
         let mut all = Sums::default();
         self.bodies.iter().for_each(|sums| all.add(sums));
         if !picture.is_finite() || all.count == 0.0 {
-            return vec![Worth::UNKNOWN; bodies];
+            return before;
         }
-        let borrowed = all.times(BORROWED / all.count);
+        let borrowed = all.borrowed();
         let worth = |sums: &Sums| {
             let mut with = borrowed;
             with.add(sums);
@@ -238,9 +289,9 @@ impl Learnt {
 }
 
 fn worth(sums: &Sums, picture: f64) -> Worth {
-    let mean = sums.radiance / sums.count;
     let moment = sums.squares / sums.count;
-    let variance = (moment - mean * mean).max(DVec3::ZERO);
+    // Both are heard of from few rays, of which one may be bright: the variance is the smaller of the two.
+    let variance = moment.min(sums.apart / sums.pairs.max(1.0));
     // Every ray that leaves is one.
     let cost = (sums.rays / sums.count).max(1.0);
     let single = |value: DVec3| {
@@ -256,6 +307,19 @@ fn worth(sums: &Sums, picture: f64) -> Worth {
 
 /// So that squares and sums of it stay finite.
 const MOST_WORTH: f64 = 1e12;
+
+/// The branches that left the same hit, two by two.
+fn pairs(returns: &[Return]) -> impl Iterator<Item = (&Return, &Return)> {
+    let finite = returns.iter().filter(|back| back.radiance.is_finite());
+    let mut by_hit: Vec<_> = finite.collect();
+    by_hit.sort_by_key(|back| back.hit);
+    let pairs: Vec<_> = by_hit
+        .windows(2)
+        .map(|pair| (pair[0], pair[1]))
+        .filter(|(one, other)| one.hit == other.hit)
+        .collect();
+    pairs.into_iter()
+}
 
 /// The unbiased variance of a few samples, channels added up.
 fn variance(samples: &[Vec3]) -> f64 {

@@ -227,7 +227,8 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         wanted_continuations(worth, path.throughput, branches.allowed as f32)
     }
 
-    /// The path goes on as that many, each with its share of the throughput.
+    /// The path goes on as that many, each with its share of the throughput: that of the whole number, so that
+    /// splitting adds no noise of its own.
     fn split_path(
         &self,
         path: &mut Path,
@@ -236,7 +237,9 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         (wanted, u): (f32, f32),
         branches: &mut Branches,
     ) {
-        path.throughput /= wanted;
+        let count = count_continuations(branches.wanted(wanted), u);
+        path.throughput /= count as f32;
+        let hit = branches.number_hit();
         let branching = Branching {
             key: path.key,
             vertex: path.vertex,
@@ -246,13 +249,11 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             origin,
             left: 0,
             allowed: 0,
+            hit,
         };
-        branches.open_branching(branching, count_continuations(wanted, u));
-        self.leave(path, surface, branches);
-    }
-
-    fn leave(&self, path: &mut Path, surface: &Surface, branches: &mut Branches) {
-        branches.leave(surface.body, path.throughput, &mut path.radiance, path.rays);
+        branches.open_branching(branching, count);
+        let from = (surface.body, hit);
+        branches.leave(from, path.throughput, &mut path.radiance, path.rays);
     }
 
     /// A path that has ended goes on as its next branch; false where it has no more.
@@ -265,7 +266,8 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         path.vertex = branching.vertex;
         path.throughput = branching.throughput;
         path.ray.direction = branching.incoming;
-        self.leave(path, &branching.surface, branches);
+        let from = (branching.surface.body, branching.hit);
+        branches.leave(from, path.throughput, &mut path.radiance, path.rays);
         let u = random_unit(branching.key, branching.vertex.wrapping_add(1), 0);
         self.scatter_path(
             path,

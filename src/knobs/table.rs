@@ -173,7 +173,7 @@ pub static KNOBS: &[Knob] = &[
         "what keeps the directional angle under a right angle: the truncated law, or the minimum"),
 
     knob("interruption.rule", Name(InterruptionRule::NAMES), "", presets(["albedo", "survival", "survival", "throughput"]),
-        "the probability of going on: 1, the material's t, the largest albedo, or the largest throughput up to 0.95, or what pays best by a pilot (efficiency), which also splits paths"),
+        "the probability of going on: 1, the material's t, the largest albedo, the largest throughput up to 0.95, or what pays best by a pilot (efficiency), which also splits paths"),
     knob("interruption.weight", Name(InterruptionWeight::NAMES), "", presets(["literal", "literal", "compensated", "compensated"]),
         "whether paths that go on are divided by that probability"),
     knob("interruption.start", integer(0, 4_294_967_295), "hits",

@@ -61,6 +61,8 @@ choice! {
         LightDensity = "light-density",
         Survival = "survival",
         Finite = "finite",
+        Continuations = "continuations",
+        BranchKey = "branch-key",
     }
 }
 

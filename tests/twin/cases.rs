@@ -56,10 +56,11 @@ pub fn all() -> Vec<Case> {
     let lights = lights.flat_map(|s| [sample_light_case(s), light_density_case(s)]);
     let survivals = survival_strategies().map(survival);
     let many = films.chain(scatters).chain(lights).chain(survivals);
+    let many = many.chain(crate::efficiency::cases());
     single.into_iter().chain(many).collect()
 }
 
-fn xyz(v: [f32; 4]) -> Vec3 {
+pub fn xyz(v: [f32; 4]) -> Vec3 {
     Vec3::new(v[0], v[1], v[2])
 }
 
@@ -68,17 +69,17 @@ fn xy(v: [f32; 4]) -> Vec2 {
 }
 
 /// Up to eight numbers, the rest zero.
-fn eight(parts: &[&[f32]]) -> [f32; 8] {
+pub fn eight(parts: &[&[f32]]) -> [f32; 8] {
     let mut all = parts.iter().flat_map(|part| part.iter().copied());
     std::array::from_fn(|_| all.next().unwrap_or(0.0))
 }
 
 /// The same multiple of the rounding unit in every lane, whatever the input.
-fn absolute(units: f64) -> Tolerance {
+pub fn absolute(units: f64) -> Tolerance {
     Box::new(move |_, _| [units * UNIT; 8])
 }
 
-fn case(
+pub fn case(
     name: &str,
     probe: Probe,
     inputs: Vec<ProbeInput>,
@@ -96,7 +97,7 @@ fn case(
     }
 }
 
-fn words_input(_: usize, stream: &mut crate::support::stream::Stream) -> ProbeInput {
+pub fn words_input(_: usize, stream: &mut crate::support::stream::Stream) -> ProbeInput {
     let mut any = || f32::from_bits(stream.bits() as u32);
     ProbeInput {
         a: [any(), any(), f32::from_bits(17), f32::from_bits(40_000)],
@@ -105,7 +106,7 @@ fn words_input(_: usize, stream: &mut crate::support::stream::Stream) -> ProbeIn
     }
 }
 
-fn key_of(input: &ProbeInput) -> [u32; 4] {
+pub fn key_of(input: &ProbeInput) -> [u32; 4] {
     let ([a, b, c, d], [e, f, _, _]) = (input.a.map(f32::to_bits), input.b.map(f32::to_bits));
     random_key([a, b], [c, d], [e, f])
 }
