@@ -6,7 +6,7 @@ override INTERRUPTION_RULE: u32;
 override INTERRUPTION_WEIGHT: u32;
 override INTERRUPTION_ORDER: u32;
 
-// `threshold` is the material's t, `albedo` the surface's, `carried` the throughput that the next
+// `threshold` is the material's t, or how many rays should leave the hit (efficiency); `albedo` the surface's, `carried` the throughput that the next
 // ray would have. At most 1, and below 1 for the throughput so that no path is certain to go on.
 fn survival_probability(threshold: f32, albedo: vec3<f32>, carried: vec3<f32>) -> f32 {
     if INTERRUPTION_RULE == INTERRUPTION_RULE_SURVIVAL {
@@ -17,6 +17,9 @@ fn survival_probability(threshold: f32, albedo: vec3<f32>, carried: vec3<f32>) -
     }
     if INTERRUPTION_RULE == INTERRUPTION_RULE_THROUGHPUT {
         return lesser(largest(carried), 0.95);
+    }
+    if INTERRUPTION_RULE == INTERRUPTION_RULE_EFFICIENCY {
+        return lesser(threshold, 1.0);
     }
     return 1.0;
 }

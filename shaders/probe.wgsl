@@ -14,6 +14,7 @@
 // #import light_tree
 // #import rectangle
 // #import interruption
+// #import efficiency
 
 struct ProbeJob {
     // One of the PROBE_ constants.
@@ -163,6 +164,16 @@ fn probe(in: Input) -> Output {
         }
         case PROBE_FINITE: {
             return Output(vec4<f32>(select(0.0, 1.0, all_finite(in.a.xyz)), 0.0, 0.0, 0.0), zero);
+        }
+        case PROBE_CONTINUATIONS: {
+            let wanted = wanted_continuations(Worth(in.a.xyz, in.b.xyz), in.c.xyz, in.a.w);
+            let count = count_continuations(greater(in.d.x, 1.0), in.d.y);
+            return Output(vec4<f32>(wanted, f32(count), 0.0, 0.0), zero);
+        }
+        case PROBE_BRANCH_KEY: {
+            let word = bitcast<vec4<u32>>(in.b);
+            let key = random_key(bitcast<vec4<u32>>(in.a).xy, bitcast<vec4<u32>>(in.a).zw, word.xy);
+            return Output(bitcast<vec4<f32>>(branch_key(key, word.z, word.w)), zero);
         }
         default: {
             return Output(zero, zero);

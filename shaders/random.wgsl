@@ -35,3 +35,9 @@ fn random_bits(key: vec4<u32>, vertex: u32, slot: u32) -> vec4<u32> {
 fn random_unit(key: vec4<u32>, vertex: u32, slot: u32) -> vec4<f32> {
     return vec4<f32>(random_bits(key, vertex, slot) >> vec4<u32>(8u)) * 5.9604645e-8;
 }
+
+// What branch `branch`, counted from 1, of a path that splits draws its numbers from; the path goes on with its
+// own key as branch 0. No draw's dimension has a third part, so that branches share no number with draws.
+fn branch_key(key: vec4<u32>, vertex: u32, branch: u32) -> vec4<u32> {
+    return pcg4d(key + vec4<u32>(vertex, 0u, branch, 0u));
+}

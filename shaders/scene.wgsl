@@ -3,8 +3,8 @@
 // host prints half of the last.
 //
 // This library, `choice` and the traversals alone read bindings: group 0 is the scene. The host prints them,
-// as one uniform buffer where the scene is small and as storage buffers where it is not, with the functions
-// that read them: material_at, sphere_at, box_at, lamp_at and choice_at. Boxes come with the unrotated ones first.
+// as one uniform buffer where the scene is small and as storage buffers where it is not, with the functions that
+// read them: material_at, sphere_at, box_at, lamp_at, choice_at and worth_at. Boxes come with the unrotated ones first.
 // A body is a sphere or a box, counted from 1 in that order.
 
 // #import maths
@@ -13,6 +13,7 @@
 // #import box
 // #import scatter
 // #import light
+// #import efficiency
 
 override SPHERE_COUNT: u32;
 override BOX_COUNT: u32;

@@ -148,3 +148,12 @@ fn sequence_bits(key: vec4<u32>, vertex: u32, slot: u32) -> vec4<u32> {
 fn sequence_unit(key: vec4<u32>, vertex: u32, slot: u32) -> vec4<f32> {
     return vec4<f32>(sequence_bits(key, vertex, slot) >> vec4<u32>(8u)) * 5.9604645e-8;
 }
+
+// What branch `branch`, counted from 1, of a path that splits draws its numbers from: as `branch_key` has it, or
+// another scrambling of the same set.
+fn sequence_branch(key: vec4<u32>, vertex: u32, branch: u32) -> vec4<u32> {
+    if SEQUENCE == SEQUENCE_INDEPENDENT {
+        return branch_key(key, vertex, branch);
+    }
+    return vec4<u32>(branch_key(vec4<u32>(key.xyz, 0u), vertex, branch).xyz, key.w);
+}

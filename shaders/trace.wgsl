@@ -13,6 +13,8 @@
 // #import rectangle
 // #import background
 // #import interruption
+// #import efficiency
+// #import branch
 
 override LIGHT_STRATEGY: u32;
 override LIGHT_DIRECT: u32;
@@ -70,6 +72,7 @@ struct Path {
 }
 
 fn start_path(pixel: vec2<u32>, sample: vec2<u32>) -> Path {
+    begin_branches();
     let key = sequence_key(job.seed, pixel, sample);
     let film = sample_film(pixel, sequence_unit(key, 0u, 0u).xy);
     var ray = Ray(vec3<f32>(0.0), camera_direction(job.camera, film), 0u, false);
@@ -248,6 +251,36 @@ fn scatter_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, 
     (*path).normal = surface.normal;
 }
 
+// How many rays should leave a hit; only the rule `efficiency` asks.
+fn continuations(path: Path, surface: Surface) -> f32 {
+    return wanted_continuations(worth_at(surface.body - 1u), path.throughput, f32(branches_allowed));
+}
+
+// The path goes on as that many, each with its share of the throughput: that of the whole number, so that splitting
+// adds no noise of its own.
+fn split_path(path: ptr<function, Path>, surface: Surface, origin: vec3<f32>, wanted: f32, u: f32) {
+    let count = count_continuations(wanted, u);
+    (*path).throughput /= f32(count);
+    let branching = Branching(
+        (*path).key, (*path).vertex, (*path).throughput, (*path).ray.direction, surface, origin, 0u, 0u);
+    open_branching(branching, count);
+}
+
+// A path that has ended goes on as its next branch; false where it has no more.
+fn next_branch(path: ptr<function, Path>) -> bool {
+    if branchings_open == 0u {
+        return false;
+    }
+    let branching = take_branch();
+    (*path).key = branching.key;
+    (*path).vertex = branching.vertex;
+    (*path).throughput = branching.throughput;
+    (*path).ray.direction = branching.incoming;
+    let u = sequence_unit(branching.key, branching.vertex + 1u, 0u);
+    scatter_path(path, branching.surface, branching.origin, u.xy);
+    return true;
+}
+
 // Emission, direct light and the next ray of one hit; the interruption test stands before or
 // after direct light.
 fn visit(path: ptr<function, Path>, surface: Surface, distance: f32) {
@@ -260,7 +293,11 @@ fn visit(path: ptr<function, Path>, surface: Surface, distance: f32) {
     let u = sequence_unit((*path).key, (*path).vertex + 1u, 0u);
     let tested = INTERRUPTION_RULE != INTERRUPTION_RULE_NONE && (*path).vertex >= job.interruption_start;
     let carried = (*path).throughput * material.albedo;
-    let probability = select(1.0, survival_probability(material.survival, material.albedo, carried), tested);
+    var threshold = material.survival;
+    if INTERRUPTION_RULE == INTERRUPTION_RULE_EFFICIENCY {
+        threshold = select(1.0, continuations(*path, surface), tested);
+    }
+    let probability = select(1.0, survival_probability(threshold, material.albedo, carried), tested);
     let survives = u.z < probability;
     let weight = select(1.0, survival_weight(probability), tested);
     if INTERRUPTION_ORDER == INTERRUPTION_ORDER_BEFORE_DIRECT {
@@ -280,6 +317,9 @@ fn visit(path: ptr<function, Path>, surface: Surface, distance: f32) {
         if !survives {
             return;
         }
+    }
+    if INTERRUPTION_RULE == INTERRUPTION_RULE_EFFICIENCY {
+        split_path(path, surface, origin, greater(threshold, 1.0), u.z);
     }
     scatter_path(path, surface, origin, u.xy);
 }
@@ -349,9 +389,15 @@ fn main(@builtin(global_invocation_id) lane: vec3<u32>) {
     var path = start_path(pixel, sample_index(0u));
     allow(job.steps);
     for (var step = 0u; step < job.steps; step++) {
-        step_path(&path);
+        // A branch may end where it begins.
+        if INTERRUPTION_RULE != INTERRUPTION_RULE_EFFICIENCY || path.alive {
+            step_path(&path);
+        }
         if cut_short() {
             break;
+        }
+        if !path.alive && INTERRUPTION_RULE == INTERRUPTION_RULE_EFFICIENCY && next_branch(&path) {
+            continue;
         }
         if !path.alive {
             add_sample(&run, path);

@@ -3,6 +3,7 @@
 //! | file | form |
 //! |---|---|
 //! | `enclosure` | a closed even enclosure: e (1 + rho + ... + rho^N) |
+//! | `efficiency` | the same, by paths that split |
 //! | `bodies`, `lobe` | a lone body under an even sky: rho L, less what a lobe loses below the surface |
 //! | `concentric` | two concentric spheres: partial sums of a two-by-two matrix |
 //! | `lamp` | a sphere over a face, also cut by the horizon: rho L F |
@@ -36,6 +37,7 @@ mod closed_forms {
     mod concentric;
     mod cross;
     mod crowd;
+    mod efficiency;
     mod enclosure;
     mod glass;
     mod lamp;

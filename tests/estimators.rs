@@ -7,6 +7,7 @@
 //! | `lamp` | relative variance of one direct light sample, by sampler, pole and size of the lamp |
 //! | `penumbra` | share of a half hidden lamp, under the paper's weight and under the true density |
 //! | `roulette` | mean, variance and length of interrupted paths in a closed enclosure |
+//! | `efficiency` | mean, variance and cost of paths that are thinned out and split |
 //! | `growth` | the variance of paths that are interrupted too often |
 //!
 //! Truths are integrated or summed in f64, and known figures are compared with those. A variance
@@ -17,6 +18,7 @@
 mod support;
 
 mod estimators {
+    mod efficiency;
     mod growth;
     mod lamp;
     mod penumbra;

@@ -51,6 +51,7 @@ structs!(
     Lamp = "Lamp",
     Material = "Material",
     Sphere = "Sphere",
+    Worth = "Worth",
     Cuboid = "Box",
     CanaryScene = "CanaryScene"
 );
@@ -144,6 +145,7 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 shape
             }),
         ),
+        ("Worth", layout!(Worth { split, keep })),
         (
             "Job",
             layout!(Job {
@@ -293,6 +295,7 @@ fn arrays(length: usize) -> SceneArrays {
         spheres: length,
         boxes: length,
         lamps: length,
+        worths: length,
         ..SceneArrays::default()
     }
 }
@@ -426,6 +429,7 @@ fn a_scene_in_one_buffer_lies_as_it_is_uploaded() {
             spheres,
             boxes,
             lamps,
+            worths: spheres + boxes,
             ..SceneArrays::default()
         };
         let with_tree = SceneArrays {

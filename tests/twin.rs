@@ -9,6 +9,8 @@ mod support;
 
 #[path = "twin/cases.rs"]
 mod cases;
+#[path = "twin/efficiency.rs"]
+mod efficiency;
 #[path = "twin/gloss.rs"]
 mod gloss;
 #[path = "twin/inputs.rs"]

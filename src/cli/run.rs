@@ -77,7 +77,11 @@ impl Run<'_> {
             ..Task::new(self.scene)
         };
         task.refuse_cut()?;
+        task.refuse_adaptive()?;
         render::refuse_too_large(&task)?;
+        for line in self.scene.unbounded_lines() {
+            remark(&format!("warning: {line}"), output);
+        }
         let (targets, denoised) = self.targets()?;
         let mut device = self.open(output)?;
         let wanted = render::record(&task, device.info(), &Rendering::new(&task));

@@ -5,7 +5,7 @@ use crate::knobs::{InterruptionRule, InterruptionWeight};
 use crate::pack::Strategy;
 use glam::Vec3;
 
-/// `threshold` is the material's t, `carried` the throughput that the next ray would have.
+/// `threshold` is the material's t, or how many rays should leave the hit; `carried` the throughput that the next ray would have.
 pub fn survival_probability(
     strategy: &Strategy,
     threshold: f32,
@@ -17,6 +17,7 @@ pub fn survival_probability(
         InterruptionRule::Survival => threshold,
         InterruptionRule::Albedo => largest(albedo),
         InterruptionRule::Throughput => lesser(largest(carried), 0.95),
+        InterruptionRule::Efficiency => lesser(threshold, 1.0),
     }
 }
 

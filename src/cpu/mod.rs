@@ -4,12 +4,14 @@
 
 pub mod background;
 pub mod r#box;
+pub mod branch;
 pub mod bvh;
 pub mod camera;
 pub mod canary;
 pub mod cap;
 pub mod choice;
 pub mod denoise;
+pub mod efficiency;
 pub mod four;
 pub mod glass;
 pub mod guides;
@@ -18,6 +20,7 @@ pub mod light;
 pub mod light_tree;
 pub mod loops;
 pub mod maths;
+pub mod pilot;
 pub mod points;
 pub mod random;
 pub mod ray;

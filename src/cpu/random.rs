@@ -37,3 +37,14 @@ pub fn random_bits(key: [u32; 4], vertex: u32, slot: u32) -> [u32; 4] {
 pub fn random_unit(key: [u32; 4], vertex: u32, slot: u32) -> [f32; 4] {
     random_bits(key, vertex, slot).map(|bits| (bits >> 8) as f32 * 5.960_464_5e-8)
 }
+
+/// What branch `branch`, counted from 1, of a path that splits draws its numbers from; the path goes on with
+/// its own key as branch 0. No draw's dimension has a third part, so that branches share no number with draws.
+pub fn branch_key(key: [u32; 4], vertex: u32, branch: u32) -> [u32; 4] {
+    pcg4d([
+        key[0].wrapping_add(vertex),
+        key[1],
+        key[2].wrapping_add(branch),
+        key[3],
+    ])
+}

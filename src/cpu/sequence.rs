@@ -1,7 +1,7 @@
 //! Twin of `shaders/sequence.wgsl`: numbers that fill their space more evenly than chance, equal to the GPU's bit
 //! for bit.
 
-use super::random::{pcg4d, random_bits, random_key};
+use super::random::{branch_key, pcg4d, random_bits, random_key};
 use crate::knobs::Sequence;
 use crate::pack::Strategy;
 use std::array::from_fn;
@@ -171,4 +171,15 @@ fn set_bits(strategy: &Strategy, key: [u32; 4], vertex: u32, slot: u32) -> [u32;
 #[inline(always)]
 pub fn sequence_unit(strategy: &Strategy, key: [u32; 4], vertex: u32, slot: u32) -> [f32; 4] {
     sequence_bits(strategy, key, vertex, slot).map(|bits| (bits >> 8) as f32 * 5.960_464_5e-8)
+}
+
+/// What branch `branch`, counted from 1, of a path that splits draws its numbers from: as [`branch_key`] has it, or
+/// another scrambling of the same set.
+pub fn sequence_branch(strategy: &Strategy, key: [u32; 4], vertex: u32, branch: u32) -> [u32; 4] {
+    if strategy.sequence == Sequence::Independent {
+        return branch_key(key, vertex, branch);
+    }
+    let [x, y, z, index] = key;
+    let [x, y, z, _] = branch_key([x, y, z, 0], vertex, branch);
+    [x, y, z, index]
 }

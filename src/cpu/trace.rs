@@ -2,8 +2,10 @@
 
 use super::background::{BACKGROUND_SLOT, background_inverse_density};
 use super::r#box::box_local;
+use super::branch::{Branches, Branching};
 use super::camera::{camera_direction, lens_direction, sample_film, sample_lens};
 use super::choice::{choice_probability, choose_lamp};
+use super::efficiency::{count_continuations, wanted_continuations};
 use super::interruption::{survival_probability, survival_weight};
 use super::light::*;
 use super::maths::{Basis, greater, largest, sample_cosine};
@@ -342,9 +344,71 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         path.alive = useful && largest(path.throughput) > 0.0;
     }
 
+    /// How many rays should leave a hit; only the rule `efficiency` asks.
+    fn continuations(&self, path: &Path, surface: &Surface, branches: &Branches) -> f32 {
+        let worth = &self.scene.worths[(surface.body as usize).wrapping_sub(1)];
+        wanted_continuations(worth, path.throughput, branches.allowed as f32)
+    }
+
+    /// The path goes on as that many, each with its share of the throughput: that of the whole number, so that
+    /// splitting adds no noise of its own.
+    fn split_path(
+        &self,
+        path: &mut Path,
+        surface: &Surface,
+        origin: Vec3,
+        (wanted, u): (f32, f32),
+        branches: &mut Branches,
+    ) {
+        let count = count_continuations(branches.wanted(wanted), u);
+        path.throughput /= count as f32;
+        let hit = branches.number_hit();
+        let branching = Branching {
+            key: path.key,
+            vertex: path.vertex,
+            throughput: path.throughput,
+            incoming: path.ray.direction,
+            surface: *surface,
+            origin,
+            left: 0,
+            allowed: 0,
+            hit,
+        };
+        branches.open_branching(branching, count);
+        let from = (surface.body, hit);
+        branches.leave(from, path.throughput, &mut path.radiance, path.rays);
+    }
+
+    /// A path that has ended goes on as its next branch; false where it has no more.
+    fn next_branch(&self, path: &mut Path, branches: &mut Branches) -> bool {
+        branches.come_back(&mut path.radiance, path.rays);
+        let Some(branching) = branches.take_branch(&self.scene.strategy) else {
+            return false;
+        };
+        path.key = branching.key;
+        path.vertex = branching.vertex;
+        path.throughput = branching.throughput;
+        path.ray.direction = branching.incoming;
+        let from = (branching.surface.body, branching.hit);
+        branches.leave(from, path.throughput, &mut path.radiance, path.rays);
+        let u = sequence_unit(
+            &self.scene.strategy,
+            branching.key,
+            branching.vertex.wrapping_add(1),
+            0,
+        );
+        self.scatter_path(
+            path,
+            &branching.surface,
+            branching.origin,
+            Vec2::new(u[0], u[1]),
+        );
+        true
+    }
+
     /// Emission, direct light and the next ray of one hit.
     #[inline(always)]
-    fn visit(&self, path: &mut Path, surface: &Surface, distance: f32) {
+    fn visit(&self, path: &mut Path, surface: &Surface, distance: f32, branches: &mut Branches) {
         let strategy = &self.scene.strategy;
         path.radiance += path.throughput * self.emitted(path, surface, distance);
         if path.vertex >= self.job.max_bounces {
@@ -356,10 +420,16 @@ impl<'a, T: Traversal> Tracer<'a, T> {
         let u = sequence_unit(strategy, path.key, path.vertex.wrapping_add(1), 0);
         let tested = strategy.interruption_rule != InterruptionRule::None
             && path.vertex >= self.job.interruption_start;
+        let splits = strategy.interruption_rule == InterruptionRule::Efficiency;
+        let threshold = match splits {
+            true if tested => self.continuations(path, surface, branches),
+            true => 1.0,
+            false => material.survival,
+        };
         let (mut survives, mut weight) = (true, 1.0);
         if tested {
             let carried = path.throughput * albedo;
-            let probability = survival_probability(strategy, material.survival, albedo, carried);
+            let probability = survival_probability(strategy, threshold, albedo, carried);
             survives = u[2] < probability;
             weight = survival_weight(strategy, probability);
         }
@@ -379,11 +449,15 @@ impl<'a, T: Traversal> Tracer<'a, T> {
                 return;
             }
         }
+        if splits {
+            let wanted = (greater(threshold, 1.0), u[2]);
+            self.split_path(path, surface, origin, wanted, branches);
+        }
         self.scatter_path(path, surface, origin, Vec2::new(u[0], u[1]));
     }
 
     #[inline(always)]
-    fn step_path(&self, path: &mut Path) {
+    fn step_path(&self, path: &mut Path, branches: &mut Branches) {
         let hit = self.bodies.nearest_hit(&path.ray);
         path.rays = path.rays.saturating_add(1);
         if hit.body == 0 {
@@ -395,17 +469,30 @@ impl<'a, T: Traversal> Tracer<'a, T> {
             return;
         }
         let surface = surface_at(self.scene, hit, &path.ray);
-        self.visit(path, &surface, hit.distance);
+        self.visit(path, &surface, hit.distance, branches);
     }
 
     /// Radiance of one sample of a pixel, unclamped, and the rays it took.
     #[inline(always)]
     pub fn sample(&self, pixel: [u32; 2], sample: u64) -> (Vec3, u32) {
+        self.sample_by(pixel, sample, &mut Branches::default())
+    }
+
+    /// The same with the branches that the path splits into.
+    #[inline(always)]
+    pub fn sample_by(&self, pixel: [u32; 2], sample: u64, branches: &mut Branches) -> (Vec3, u32) {
+        let strategy = &self.scene.strategy;
+        branches.begin(strategy.interruption_split);
         let mut path = self.start_path(pixel, crate::pack::words(sample));
-        while path.alive {
-            self.step_path(&mut path);
+        loop {
+            while path.alive {
+                self.step_path(&mut path, branches);
+            }
+            let splits = strategy.interruption_rule == InterruptionRule::Efficiency;
+            if !(splits && self.next_branch(&mut path, branches)) {
+                return (path.radiance, path.rays);
+            }
         }
-        (path.radiance, path.rays)
     }
 
     /// One tally for each run of the job's samples of a pixel.

@@ -47,7 +47,7 @@ pub use randomisations::{ErrorEstimate, Randomisations};
 pub use raster::{Noise, Pixels, Raster, Transfer};
 pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
-pub use record::{Record, Seconds, Stop};
+pub use record::{PilotRecord, Record, Seconds, Stop};
 pub use relative::{QUANTILE, RelativeError, needed_samples};
 pub use scouts::{AdaptiveRecord, SCOUTS, Scouts, TILE, Tiles};
 pub use text::SCENE_TEXT_LIMIT;

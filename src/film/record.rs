@@ -24,6 +24,9 @@ pub struct Record {
     /// What `render.kernel` came to: `general`, `bvh` or `baked`; empty in records older than the knob.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kernel: String,
+    /// What the rule `efficiency` learnt before the first sample; absent by any other rule.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pilot: Option<PilotRecord>,
     pub device: DeviceInfo,
     /// Every device of a picture that several took part in, by merging or because one was lost; absent for one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -122,6 +125,17 @@ impl Record {
         let short = short.map(|value| LONGEST.saturating_sub(written(value)));
         self.to_json() + &" ".repeat(short.sum())
     }
+}
+
+/// A pilot by which paths were thinned out and split. Its samples are not in the picture, and its time counts as
+/// setup.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PilotRecord {
+    /// Of what it found.
+    pub hash: String,
+    pub paths: u64,
+    /// Shadow rays included.
+    pub rays: u64,
 }
 
 /// Wall-clock times.

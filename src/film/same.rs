@@ -20,6 +20,7 @@ pub(super) fn difference(a: &Record, b: &Record, ignored: Option<&str>) -> Optio
         ("width", a.width.to_string(), b.width.to_string()),
         ("height", a.height.to_string(), b.height.to_string()),
         ("crop", format!("{:?}", a.crop), format!("{:?}", b.crop)),
+        ("pilot", pilot(a), pilot(b)),
         ("seed", a.seed.to_string(), b.seed.to_string()),
     ];
     let field = fields.into_iter().find(|(_, one, other)| one != other);
@@ -35,6 +36,11 @@ pub(super) fn difference(a: &Record, b: &Record, ignored: Option<&str>) -> Optio
         one: short(&found.one),
         other: short(&found.other),
     })
+}
+
+fn pilot(record: &Record) -> String {
+    let hash = record.pilot.as_ref().map(|pilot| pilot.hash.clone());
+    hash.unwrap_or_else(|| "none".into())
 }
 
 fn knob(a: &Record, b: &Record, ignored: Option<&str>) -> Option<Difference> {

@@ -257,6 +257,7 @@ fn array_bytes(array: &SceneArray, scene: &Packed) -> Vec<u8> {
         ("box_at", _) => padded(&scene.boxes, length),
         ("lamp_at", _) => padded(&scene.lamps, length),
         ("choice_at", _) => padded(&scene.choice.entries, length),
+        ("worth_at", _) => padded(&scene.worths, length),
         ("outside_sphere_at", Some(all)) => padded(&all.spheres, length),
         ("outside_box_at", Some(all)) => padded(&all.boxes, length),
         ("node_at", Some(all)) => padded(&all.tree.nodes, length),

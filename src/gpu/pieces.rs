@@ -53,7 +53,7 @@ impl Allowance {
         if !stops_early(device) {
             // A step that asks every one of many lamps is as long as that many steps.
             let rays = u64::from(scene.strategy.shadow_rays()).max(1);
-            let steps = (u64::from(scene.max_bounces) + 1).saturating_mul(rays);
+            let steps = scene.longest_path().saturating_mul(rays);
             let samples = (LONG_LANE / steps).max(1);
             return Some(Self {
                 steps: u32::MAX,
@@ -67,7 +67,7 @@ impl Allowance {
             return Self::in_tree(scene);
         }
         let steps = SOFTWARE_ITERATIONS / iterations(scene);
-        let samples = (steps / (u64::from(scene.max_bounces) + 1)).max(1);
+        let samples = (steps / scene.longest_path()).max(1);
         (steps > 0).then_some(Self {
             steps: steps as u32,
             samples: 1 << samples.ilog2(),

@@ -210,6 +210,8 @@ choice! {
         Albedo = "albedo",
         /// The largest channel of what the next ray would carry, at most 0.95.
         Throughput = "throughput",
+        /// As many rays as are worth their cost (Rath et al. 2022): paths are thinned out or split.
+        Efficiency = "efficiency",
     }
 }
 

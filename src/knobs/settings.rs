@@ -86,6 +86,8 @@ pub struct Interruption {
     /// The first hit at which the test is made; the camera's hit is 0.
     pub start: u32,
     pub order: InterruptionOrder,
+    /// Rule `efficiency`: branches that one path may split into, 1 to 16.
+    pub split: u32,
 }
 
 impl Settings {
@@ -139,6 +141,7 @@ impl Settings {
                 weight: choice(&value("interruption.weight")),
                 start: whole("interruption.start"),
                 order: choice(&value("interruption.order")),
+                split: whole("interruption.split"),
             },
         }
     }

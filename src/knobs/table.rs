@@ -187,11 +187,12 @@ pub static KNOBS: &[Knob] = &[
         "what keeps the directional angle under a right angle: the truncated law, or the minimum"),
 
     knob("interruption.rule", Name(InterruptionRule::NAMES), "", presets(["albedo", "survival", "survival", "throughput"]),
-        "the probability of going on: 1, the material's t, the largest albedo, or the largest throughput up to 0.95"),
+        "the probability of going on: 1, the material's t, the largest albedo, the largest throughput up to 0.95, or what pays best by a pilot (efficiency), which also splits paths"),
     knob("interruption.weight", Name(InterruptionWeight::NAMES), "", presets(["literal", "literal", "compensated", "compensated"]),
         "whether paths that go on are divided by that probability"),
     knob("interruption.start", integer(0, 4_294_967_295), "hits",
         Presets([Value::Integer(5), Value::Integer(0), Value::Integer(0), Value::Integer(4)]), "the first hit at which the test is made; the camera's hit is 0"),
     knob("interruption.order", Name(InterruptionOrder::NAMES), "", presets(["before-direct", "after-direct", "after-direct", "after-direct"]),
         "whether a hit's direct light is added before or after the test"),
+    knob("interruption.split", integer(1, 16), "branches", whole(8), "rule `efficiency` only: what one path may split into, all its branches together; 1 thins paths out and splits none"),
 ];

@@ -95,6 +95,27 @@ pub struct Lamp {
     pub _pad1: u32,
 }
 
+/// `efficiency.wgsl`: what the rays that leave a body are worth.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Worth {
+    pub split: Vec3,
+    pub _pad0: f32,
+    pub keep: Vec3,
+    pub _pad1: f32,
+}
+
+impl Worth {
+    /// Of a body of which nothing is known: as many rays leave each hit as the mean square of the throughput's
+    /// channels says, and never more than one.
+    pub const UNKNOWN: Self = Self {
+        split: [0.0; 3],
+        _pad0: 0.0,
+        keep: [1.0 / 3.0; 3],
+        _pad1: 0.0,
+    };
+}
+
 /// `trace.wgsl`: one dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

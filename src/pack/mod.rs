@@ -17,7 +17,7 @@ pub use strategy::{LastRay, RUN_LENGTH, Strategy};
 pub use traversal::Traversal;
 pub use tree::Hierarchy;
 
-use crate::knobs::{Choice, Pole, Scatter, ScatterBound, Settings};
+use crate::knobs::{Choice, InterruptionRule, Pole, Scatter, ScatterBound, Settings};
 use crate::scene::{self, Scene};
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -40,6 +40,9 @@ pub struct Packed {
     pub lamps: Vec<Lamp>,
     /// What one of the lamps is chosen by.
     pub choice: Arc<Choices>,
+    /// What the rays that leave each body are worth; of no body but by the rule `efficiency`, and by that rule
+    /// unknown until a pilot fills them in.
+    pub worths: Vec<Worth>,
     /// The bodies once more where rays find them by a tree.
     pub hierarchy: Option<Arc<Hierarchy>>,
     pub strategy: Strategy,
@@ -91,6 +94,7 @@ impl Packed {
             interruption_start: settings.interruption.start,
             materials: scene.materials.iter().map(material).collect(),
             spheres,
+            worths: unknown_worths(scene),
             boxes,
             lamps,
             choice: Arc::new(choice),
@@ -114,14 +118,29 @@ impl Packed {
             samples,
             max_bounces: self.max_bounces,
             interruption_start: self.interruption_start,
-            steps: samples.saturating_mul(self.max_bounces.saturating_add(1)),
+            steps: u32::try_from(self.longest_path().saturating_mul(samples.into()))
+                .unwrap_or(u32::MAX),
         }
+    }
+
+    /// The most rays that all branches of a path may take, shadow rays left out.
+    pub fn longest_path(&self) -> u64 {
+        (u64::from(self.max_bounces) + 1) * u64::from(self.strategy.interruption_split)
     }
 }
 
 /// A 64-bit number as (low, high).
 pub fn words(number: u64) -> [u32; 2] {
     [number as u32, (number >> 32) as u32]
+}
+
+fn unknown_worths(scene: &Scene) -> Vec<Worth> {
+    match scene.settings.interruption.rule {
+        InterruptionRule::Efficiency => {
+            vec![Worth::UNKNOWN; scene.spheres.len() + scene.boxes.len()]
+        }
+        _ => Vec::new(),
+    }
 }
 
 fn single(v: DVec3) -> Vec3 {

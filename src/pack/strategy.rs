@@ -40,6 +40,8 @@ pub struct Strategy {
     pub interruption_rule: InterruptionRule,
     pub interruption_weight: InterruptionWeight,
     pub interruption_order: InterruptionOrder,
+    /// What a path may split into; 1 by every rule that splits none.
+    pub interruption_split: u32,
     pub last_ray: LastRay,
     pub rough_surfaces: bool,
     pub glass_surfaces: bool,
@@ -80,6 +82,7 @@ impl Strategy {
             interruption_rule: settings.interruption.rule,
             interruption_weight: settings.interruption.weight,
             interruption_order: settings.interruption.order,
+            interruption_split: split(&settings.interruption),
             last_ray: last_ray(scene),
             rough_surfaces: some(Scatter::Rough),
             glass_surfaces: some(Scatter::Glass),
@@ -126,6 +129,7 @@ impl Strategy {
             ("INTERRUPTION_RULE", self.interruption_rule.index()),
             ("INTERRUPTION_WEIGHT", self.interruption_weight.index()),
             ("INTERRUPTION_ORDER", self.interruption_order.index()),
+            ("INTERRUPTION_SPLIT", self.interruption_split),
             ("LAST_RAY", self.last_ray.index()),
             ("ROUGH_SURFACES", u32::from(self.rough_surfaces)),
             ("GLASS_SURFACES", u32::from(self.glass_surfaces)),
@@ -163,6 +167,13 @@ pub(super) fn samples_boxes(scene: &Scene) -> bool {
 
 fn samples_background(scene: &Scene) -> bool {
     samples(scene, scene.settings.light.background) && scene.background.max_element() > 0.0
+}
+
+fn split(interruption: &Interruption) -> u32 {
+    match interruption.rule {
+        InterruptionRule::Efficiency => interruption.split,
+        _ => 1,
+    }
 }
 
 fn last_ray(scene: &Scene) -> LastRay {

@@ -5,7 +5,7 @@ use super::pace::Pace;
 use super::{Plan, Task};
 use crate::device::{Block, Device, IN_FLIGHT, Traced};
 use crate::error::Result;
-use crate::pack::{Feature, Packed, Rect};
+use crate::pack::{Feature, Rect};
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender};
@@ -70,7 +70,7 @@ pub(super) fn feed(
     enough: &AtomicBool,
 ) -> Result<()> {
     let began = Instant::now();
-    device.load(&Packed::by(task.scene, task.traversal))?;
+    device.load(&task.packed())?;
     let features = wants_features
         .then(|| features(device, task.region))
         .transpose()?;

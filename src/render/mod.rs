@@ -18,15 +18,17 @@ pub use picture::{picture, record, scene_hash};
 pub use plan::Plan;
 pub use rendering::Rendering;
 
+use crate::cpu::pilot::Pilot;
 use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::{Film, Stop};
-use crate::knobs::Sequence;
-use crate::pack::{Rect, Traversal};
+use crate::knobs::{InterruptionRule, Sequence};
+use crate::pack::{Packed, Rect, Traversal};
 use crate::scene::Scene;
 use adaptive::Work;
 use feed::{Fed, Supply, feed};
 use std::ops::{ControlFlow, Range};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
 use std::thread;
@@ -55,6 +57,8 @@ pub struct Task<'a> {
     /// Whether the samples go where the error is, in the place of evenly over the picture; only beside a target
     /// error.
     pub adaptive: bool,
+    /// What [`Task::pilot`] found, once somebody has asked.
+    pub pilot: OnceLock<Pilot>,
 }
 
 impl<'a> Task<'a> {
@@ -69,6 +73,7 @@ impl<'a> Task<'a> {
             traversal: Traversal::of(scene),
             target_error: None,
             adaptive: false,
+            pilot: OnceLock::new(),
         }
     }
 
@@ -83,6 +88,29 @@ impl<'a> Task<'a> {
 }
 
 impl Task<'_> {
+    /// What the pilot of the rule `efficiency` finds, for the picture as a whole; none by any other rule. It is
+    /// traced when somebody first asks, by the CPU twin whatever the device.
+    pub fn pilot(&self) -> Option<&Pilot> {
+        let (image, interruption) = (
+            &self.scene.settings.image,
+            &self.scene.settings.interruption,
+        );
+        let trace = || {
+            let packed = Packed::by(self.scene, self.traversal);
+            Pilot::new(&packed, [image.width, image.height])
+        };
+        (interruption.rule == InterruptionRule::Efficiency).then(|| self.pilot.get_or_init(trace))
+    }
+
+    /// The scene as devices take it.
+    pub fn packed(&self) -> Packed {
+        let mut packed = Packed::by(self.scene, self.traversal);
+        if let Some(pilot) = self.pilot() {
+            packed.worths.clone_from(&pilot.worths);
+        }
+        packed
+    }
+
     /// Paths of all of it.
     pub fn paths(&self) -> u64 {
         let samples = self.samples.end - self.samples.start;
@@ -115,6 +143,22 @@ impl Task<'_> {
         Err(Error::Usage(format!(
             "samples {start}..{end} begin inside a randomisation: with render.sequence = {} and {} samples planned it is {length} samples long; give --sample-range {before}..{end}",
             render.sequence, render.samples
+        )))
+    }
+
+    /// Refuses samples where the error is that are not independent: their errors are known by whole
+    /// randomisations, not by tiles.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] with both ways out.
+    pub fn refuse_adaptive(&self) -> Result<()> {
+        let render = &self.scene.settings.render;
+        if self.terms().is_none() || render.sequence == Sequence::Independent {
+            return Ok(());
+        }
+        Err(Error::Usage(format!(
+            "--target-error spends samples where the error is, and those must be independent: render.sequence is {}; add --even, or set render.sequence=independent",
+            render.sequence
         )))
     }
 

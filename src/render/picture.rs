@@ -2,7 +2,9 @@
 
 use super::{Rendering, Task, adaptive, whole};
 use crate::device::DeviceInfo;
-use crate::film::{AdaptiveRecord, Aov, Features, Film, Picture, Record, Seconds, TILE};
+use crate::film::{
+    AdaptiveRecord, Aov, Features, Film, Picture, PilotRecord, Record, Seconds, TILE,
+};
 
 /// Identifies a scene's text in records.
 pub fn scene_hash(text: &str) -> String {
@@ -35,6 +37,11 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         preset: settings.preset.to_string(),
         knobs: scene.knobs.clone(),
         kernel: device.traversal(task.traversal).to_string(),
+        pilot: task.pilot().map(|pilot| PilotRecord {
+            hash: pilot.hash(),
+            paths: pilot.paths,
+            rays: pilot.rays,
+        }),
         device: device.clone(),
         devices: if several {
             rendering.devices.clone()

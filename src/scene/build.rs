@@ -6,8 +6,8 @@ use super::faults::{Faults, Origin};
 use super::{Camera, Scene, Source};
 use crate::knobs::randomisation::SHORTEST;
 use crate::knobs::{
-    KNOBS, Knob, Preset, RenderKernel, SMALLEST, Sequence, Settings, Value, choice, find,
-    in_section,
+    Interruption, InterruptionRule, InterruptionWeight, KNOBS, Knob, Preset, RenderKernel,
+    SMALLEST, Sequence, Settings, Value, choice, find, in_section,
 };
 use glam::DVec3;
 use std::collections::HashMap;
@@ -51,6 +51,7 @@ pub(crate) fn build(
         .collect();
     let spheres = builder.spheres(&names);
     let boxes = builder.boxes(&names);
+    builder.efficiency(&settings);
     builder.kernel(&settings, spheres.len() + boxes.len());
     let knobs = builder.record(strategy.as_ref(), lambert);
     faults.is_empty().then_some(Scene {
@@ -204,6 +205,21 @@ impl Builder<'_, '_, '_> {
                     message,
                     Some("it may have 2^28 (268435456) pixels at most".into()),
                 )
+            });
+        }
+    }
+
+    /// Paths that are thinned out and split by what they cost must be made up for: literal ones would lose or gain
+    /// light by a pilot's chance.
+    fn efficiency(&mut self, settings: &Settings) {
+        let Interruption { rule, weight, .. } = settings.interruption;
+        if rule == InterruptionRule::Efficiency && weight == InterruptionWeight::Literal {
+            let origins = ["interruption.weight", "interruption.rule"];
+            let origin = self.blame(&origins.map(|path| self.origin(path)));
+            self.faults.add(origin, || {
+                let message = "`interruption.rule` cannot be `efficiency` beside `interruption.weight = \"literal\"`";
+                let note = "set `interruption.weight` to `compensated`, or choose another rule";
+                (message.into(), Some(note.into()))
             });
         }
     }

@@ -5,9 +5,10 @@ use super::load::without_mark;
 use super::places::Places;
 use super::solid::Solid;
 use super::{Material, Scene};
-use crate::knobs::{InterruptionRule, InterruptionWeight, Scatter, find, short};
+use crate::knobs::{Scatter, find, short};
 use codespan_reporting::diagnostic::Severity;
 use glam::DVec3;
+use std::borrow::Cow;
 
 /// Pairs of a lamp and a shape that are compared at most, a few tenths of a second.
 const MOST_PAIRS: usize = 20_000_000;
@@ -31,14 +32,36 @@ impl Scene {
         lint.survival();
         lint.idle_knobs();
         lint.one_sample();
-        let found = lint.found;
-        if found.is_empty() {
-            return Vec::new();
-        }
-        let text = without_mark(&self.source.text);
-        let places = Places::of(text);
-        let show = |warning: Warning| warning.show(&self.source.name, text, &places);
-        found.into_iter().map(show).collect()
+        lint.shown()
+    }
+
+    /// Those of [`Scene::unbounded`] alone, a line each: they make a picture that never becomes sharp, and who renders
+    /// it should know.
+    pub fn unbounded_lines(&self) -> Vec<String> {
+        let mut lint = Lint {
+            scene: self,
+            found: Vec::new(),
+        };
+        lint.survival();
+        let name = short(&self.source.name);
+        let line = |finding: Finding| {
+            let place = finding
+                .place
+                .map(|(line, column)| format!("{name}:{line}:{column}"));
+            let place = place.unwrap_or_else(|| name.clone());
+            let note = finding.note.unwrap_or_default();
+            format!("{place}: {}; {note}", finding.message)
+        };
+        lint.shown().into_iter().map(line).collect()
+    }
+
+    /// Whether light cannot leave: rays from the camera in 64 directions all meet a surface.
+    pub(super) fn seems_closed(&self) -> bool {
+        let spheres = self.spheres.iter().map(Solid::Sphere);
+        let solids: Vec<_> = spheres.chain(self.boxes.iter().map(Solid::Box)).collect();
+        let from = self.camera.position;
+        let meets = |direction| solids.iter().any(|solid| solid.meets(from, direction));
+        (0..FEELERS).map(spiral).all(meets)
     }
 }
 
@@ -47,11 +70,24 @@ struct Lint<'a> {
     found: Vec<Warning>,
 }
 
+impl Lint<'_> {
+    fn shown(self) -> Vec<Finding> {
+        let Self { scene, found } = self;
+        if found.is_empty() {
+            return Vec::new();
+        }
+        let text = without_mark(&scene.source.text);
+        let places = Places::of(text);
+        let show = |warning: Warning| warning.show(&scene.source.name, text, &places);
+        found.into_iter().map(show).collect()
+    }
+}
+
 struct Warning {
     /// The table of the scene file that it is about.
     table: String,
     message: String,
-    note: Option<&'static str>,
+    note: Option<Cow<'static, str>>,
 }
 
 impl Warning {
@@ -62,13 +98,13 @@ impl Warning {
             Severity::Warning,
             snippet.as_ref(),
             &self.message,
-            self.note,
+            self.note.as_deref(),
         );
         Finding {
             place: snippet.map(|snippet| snippet.place()),
             flag: None,
             message: self.message,
-            note: self.note.map(String::from),
+            note: self.note.map(Cow::into_owned),
             text,
         }
     }
@@ -79,7 +115,7 @@ impl<'a> Lint<'a> {
         self.found.push(Warning {
             table: table.into(),
             message,
-            note,
+            note: note.map(Cow::from),
         });
     }
 
@@ -175,11 +211,7 @@ impl<'a> Lint<'a> {
 
     /// Which materials a shape has.
     fn used(&self) -> Vec<bool> {
-        let mut used = vec![false; self.scene.materials.len()];
-        for (_, solid) in self.shapes() {
-            used[solid.material()] = true;
-        }
-        used
+        self.scene.used_materials()
     }
 
     /// The materials that shapes have and that fit, with their tables.
@@ -202,17 +234,10 @@ impl<'a> Lint<'a> {
     }
 
     /// A channel that surfaces reflect wholly, in a scene that light cannot leave: it never fades,
-    /// so that the picture depends on `max_bounces`. A scene counts as closed if rays from the
-    /// camera in 64 directions all meet a surface.
+    /// so that the picture depends on `max_bounces`.
     fn closed(&mut self) {
         let perfect = self.used_materials(|material| material.albedo.max_element() >= 1.0);
-        if perfect.is_empty() {
-            return;
-        }
-        let solids: Vec<_> = self.shapes().map(|(_, solid)| solid).collect();
-        let from = self.scene.camera.position;
-        let meets = |direction| solids.iter().any(|solid| solid.meets(from, direction));
-        if !(0..FEELERS).map(spiral).all(meets) {
+        if perfect.is_empty() || !self.scene.seems_closed() {
             return;
         }
         for (table, material) in perfect.into_iter().take(MOST_ALIKE) {
@@ -225,34 +250,16 @@ impl<'a> Lint<'a> {
         }
     }
 
-    /// Thresholds under which compensated survival has no finite variance: each hit multiplies the
-    /// second moment by albedo^2 / t.
+    /// Thresholds under which compensated survival has no finite variance, or loses light.
     fn survival(&mut self) {
-        let interruption = &self.scene.settings.interruption;
-        if interruption.rule != InterruptionRule::Survival
-            || interruption.weight != InterruptionWeight::Compensated
-        {
-            return;
-        }
-        let low = |m: &Material| m.survival <= m.albedo.max_element().powi(2) && m.survival < 1.0;
-        for (table, material) in self.used_materials(low).into_iter().take(MOST_ALIKE) {
-            let name = short(&material.name);
-            let survival = material.survival;
-            let (message, note) = if survival == 0.0 {
-                let message = format!("`{name}` has survival 0: every path ends there");
-                (
-                    message,
-                    "no weight can make up for paths that never go on: the picture lacks their light",
-                )
-            } else {
-                let message =
-                    format!("`{name}` has survival {survival}, not above the square of its albedo");
-                (
-                    message,
-                    "compensated weights then grow without bound: the variance of long paths is infinite",
-                )
-            };
-            self.warn(table, message, Some(note));
+        for material in self.scene.unbounded() {
+            let name = short(&self.scene.materials[material.number].name);
+            let (message, note) = material.words(&name, self.scene);
+            self.found.push(Warning {
+                table: format!("materials.{}", self.scene.materials[material.number].name),
+                message,
+                note: Some(note.into()),
+            });
         }
     }
 

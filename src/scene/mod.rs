@@ -16,6 +16,7 @@ mod read;
 mod shapes;
 mod solid;
 mod sweep;
+mod unbounded;
 
 pub use assign::Assignment;
 pub use build::MOST_BAKED;
@@ -24,6 +25,7 @@ pub use finding::Finding;
 pub use load::MOST_BYTES;
 pub use read::{MOST_MATERIALS, MOST_PRIMITIVES};
 pub use sweep::{Region, SweepTable};
+pub use unbounded::Unbounded;
 
 use crate::knobs::{Scatter, Settings};
 use glam::DVec3;

@@ -10,6 +10,10 @@ const UNIFORM_BYTES: usize = 16 * 1024;
 /// Stands for the array where no lamp is chosen.
 const NO_CHOICE: &str = "fn choice_at(index: u32) -> vec4<u32> {\n    return vec4<u32>(0u);\n}\n";
 
+/// For scenes of which nobody asks it: the function is there, and is never called.
+const NO_WORTHS: &str =
+    "fn worth_at(index: u32) -> Worth {\n    return Worth(vec3<f32>(0.0), vec3<f32>(0.0));\n}\n";
+
 /// Lengths of the scene's arrays on the device, which the shader's declarations depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SceneArrays {
@@ -17,6 +21,8 @@ pub struct SceneArrays {
     pub spheres: usize,
     pub boxes: usize,
     pub lamps: usize,
+    /// 0 where no rule asks what the rays that leave a body are worth.
+    pub worths: usize,
     /// Entries of the tree; 0 where rays find bodies without one.
     pub nodes: usize,
     /// Bodies outside the tree.
@@ -79,6 +85,7 @@ impl SceneArrays {
                 spheres: room(packed.spheres.len()),
                 boxes: room(packed.boxes.len()),
                 lamps: room(packed.lamps.len()),
+                worths: packed.worths.len(),
                 nodes,
                 outside_spheres: spheres,
                 outside_boxes: boxes,
@@ -101,13 +108,15 @@ impl SceneArrays {
         }
     }
 
-    fn small(&self) -> [SceneArray; 4] {
-        [
+    fn small(&self) -> Vec<SceneArray> {
+        let all = [
             SceneArray::new::<pack::Material>("material_at", "Material", self.materials),
             SceneArray::new::<pack::Cuboid>("box_at", "Box", self.boxes),
             SceneArray::new::<pack::Lamp>("lamp_at", "Lamp", self.lamps),
             SceneArray::new::<pack::ChoiceEntry>("choice_at", "vec4<u32>", self.choice),
-        ]
+            SceneArray::new::<pack::Worth>("worth_at", "Worth", self.worths),
+        ];
+        all.into_iter().filter(|array| array.length > 0).collect()
     }
 
     fn spheres(&self) -> SceneArray {
@@ -183,6 +192,9 @@ impl SceneArrays {
             let read = |array: &SceneArray| array.accessor(&format!("scene_data.{}_", array.name));
             let here = uniform.iter().filter(|array| is_here(array));
             text.extend(here.map(read));
+        }
+        if self.worths == 0 {
+            text += NO_WORTHS;
         }
         let first = usize::from(!uniform.is_empty());
         for (binding, array) in (first..).zip(&storage) {

@@ -71,6 +71,8 @@ choice! {
         Finite = "finite",
         Fresnel = "fresnel",
         Lens = "lens",
+        Continuations = "continuations",
+        BranchKey = "branch-key",
     }
 }
 

@@ -5,8 +5,8 @@ use super::whole::Inputs;
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use crate::pack::{Packed, Strategy};
-use crate::scene::{Assignment, Scene};
-use std::collections::HashMap;
+use crate::scene::{Assignment, Scene, Unbounded};
+use std::collections::{BTreeMap, HashMap};
 
 /// What all runs share.
 #[derive(Clone, Debug)]
@@ -68,6 +68,9 @@ pub struct Planned {
 pub struct Plan {
     /// Those with the same strategies follow each other, and are otherwise in the order of the grid.
     pub runs: Vec<Planned>,
+    /// Of each material whose variance has no bound in some runs of the grid, by name: the worst of them, and their
+    /// number.
+    pub unbounded: BTreeMap<String, (Unbounded, usize)>,
 }
 
 impl Plan {
@@ -78,8 +81,17 @@ impl Plan {
     pub fn new(base: &Base, grid: &Grid, device: &DeviceInfo) -> Result<Self> {
         let mut strategies: HashMap<Strategy, usize> = HashMap::new();
         let mut runs = Vec::new();
+        let mut unbounded: BTreeMap<String, (Unbounded, usize)> = BTreeMap::new();
         for (number, point) in grid.points()?.into_iter().enumerate() {
             let scene = base.scene(&point)?;
+            for one in scene.unbounded() {
+                let name = scene.materials[one.number].name.clone();
+                let (worst, count) = unbounded.entry(name).or_insert((one, 0));
+                *count += 1;
+                if one.growth() > worst.growth() {
+                    *worst = one;
+                }
+            }
             let next = strategies.len();
             let strategy = *strategies
                 .entry(Packed::new(&scene).strategy)
@@ -98,7 +110,7 @@ impl Plan {
         }
         // A pipeline that is specialised for a strategy is made once and used while it is at hand.
         runs.sort_by_key(|run| run.strategy);
-        Ok(Self { runs })
+        Ok(Self { runs, unbounded })
     }
 
     /// Every n-th run of the grid, from the `part`-th on, counted from 1.

@@ -218,6 +218,7 @@ fn record(samples: u64, seed: u64) -> Record {
         preset: String::new(),
         knobs: Map::new(),
         kernel: "general".into(),
+        pilot: None,
         device: DeviceInfo {
             kind: DeviceKind::Cpu,
             name: String::new(),

@@ -203,7 +203,7 @@ fn the_full_cross_holds_all_of_them() {
     }
 }
 
-/// A value that is added to a knob belongs here too.
+/// A value that is added to a knob belongs here too; the rule that learns has a cross of its own.
 #[test]
 fn every_value_of_the_knobs_is_crossed() {
     fn check<T: std::fmt::Display>(all: &[T], listed: &[&str]) {
@@ -214,7 +214,8 @@ fn every_value_of_the_knobs_is_crossed() {
     check(LightStrategy::ALL, &STRATEGIES);
     check(LightChoice::ALL, &CHOICES);
     check(LightSource::ALL, &SOURCES);
-    check(InterruptionRule::ALL, &RULES);
+    let rules = [&RULES[..], &[super::efficiency::RULE]].concat();
+    check(InterruptionRule::ALL, &rules);
     check(InterruptionOrder::ALL, &ORDERS);
     check(ScatterDiffuse::ALL, &DIFFUSE);
 }

@@ -12,13 +12,13 @@ const ALBEDO: [f64; 3] = [0.75, 0.5, 0.3];
 const SURVIVAL: f64 = 0.75;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Shape {
+pub(super) enum Shape {
     Sphere,
     Box,
     TurnedBox,
 }
 
-const SHAPES: [Shape; 3] = [Shape::Sphere, Shape::Box, Shape::TurnedBox];
+pub(super) const SHAPES: [Shape; 3] = [Shape::Sphere, Shape::Box, Shape::TurnedBox];
 
 impl Shape {
     fn text(self) -> &'static str {
@@ -42,7 +42,7 @@ fn series(ratio: f64, n: u32) -> f64 {
 }
 
 /// The sky would be seen through any leak: it is a thousand times as bright as the walls.
-fn case(shape: Shape, max_bounces: u32, form: Form) -> Case {
+pub(super) fn case(shape: Shape, max_bounces: u32, form: Form) -> Case {
     let scene = format!(
         "version = 1
         camera = {{ position = [0.3, -0.1, 0.2], look_at = [1.0, 0.5, -0.4], fov = 100 }}
@@ -65,7 +65,7 @@ fn times(factor: impl Fn(usize) -> f64) -> [f64; 3] {
     [0, 1, 2].map(|channel| EMISSION[channel] * factor(channel))
 }
 
-fn whole(max_bounces: u32) -> [f64; 3] {
+pub(super) fn whole(max_bounces: u32) -> [f64; 3] {
     times(|channel| series(ALBEDO[channel], max_bounces))
 }
 

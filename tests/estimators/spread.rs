@@ -99,9 +99,18 @@ impl Distance {
 pub fn measure(bench: Bench, case: &Case, seed: u64, laws: [Law; 3]) -> (Film, [Distance; 3]) {
     let scene = case.scene(seed);
     let pixels = f64::from(scene.settings.image.width * scene.settings.image.height);
+    measure_by(laws, pixels, |samples| bench.film(&scene, 0..samples))
+}
+
+/// The same for a film that somebody else takes, with as many samples of each pixel as he is told.
+pub fn measure_by(
+    laws: [Law; 3],
+    pixels: f64,
+    take: impl FnOnce(u64) -> Film,
+) -> (Film, [Distance; 3]) {
     let samples = laws.map(|law| law.samples(pixels)).into_iter().max();
-    let film = bench.film(&scene, 0..samples.unwrap_or(64));
-    assert_eq!(film.non_finite, 0, "{}", case.name);
+    let film = take(samples.unwrap_or(64));
+    assert_eq!(film.non_finite, 0);
     let distances = [0, 1, 2].map(|channel| Distance::new(&film, channel, laws[channel]));
     (film, distances)
 }

@@ -144,6 +144,7 @@ pub fn record(samples: std::ops::Range<u64>) -> Record {
         preset: "reference".into(),
         knobs,
         kernel: "general".into(),
+        pilot: None,
         device: device("llvmpipe"),
         devices: Vec::new(),
         width: 0,

@@ -64,6 +64,7 @@ pub fn strategy() -> Strategy {
         interruption_rule: InterruptionRule::Throughput,
         interruption_weight: InterruptionWeight::Compensated,
         interruption_order: InterruptionOrder::AfterDirect,
+        interruption_split: 1,
         last_ray: LastRay::Always,
         rough_surfaces: false,
         glass_surfaces: false,

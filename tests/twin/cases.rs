@@ -70,6 +70,7 @@ pub fn all() -> Vec<Case> {
         .chain(many)
         .chain(crate::gloss::all())
         .chain(crate::sequence::cases())
+        .chain(crate::efficiency::cases())
         .collect()
 }
 
@@ -88,7 +89,7 @@ pub fn eight(parts: &[&[f32]]) -> [f32; 8] {
 }
 
 /// The same multiple of the rounding unit in every lane, whatever the input.
-fn absolute(units: f64) -> Tolerance {
+pub fn absolute(units: f64) -> Tolerance {
     Box::new(move |_, _| [units * UNIT; 8])
 }
 
@@ -110,7 +111,7 @@ pub fn case(
     }
 }
 
-fn words_input(_: usize, stream: &mut crate::support::stream::Stream) -> ProbeInput {
+pub fn words_input(_: usize, stream: &mut crate::support::stream::Stream) -> ProbeInput {
     let mut any = || f32::from_bits(stream.bits() as u32);
     ProbeInput {
         a: [any(), any(), f32::from_bits(17), f32::from_bits(40_000)],
@@ -119,7 +120,7 @@ fn words_input(_: usize, stream: &mut crate::support::stream::Stream) -> ProbeIn
     }
 }
 
-fn key_of(input: &ProbeInput) -> [u32; 4] {
+pub fn key_of(input: &ProbeInput) -> [u32; 4] {
     let ([a, b, c, d], [e, f, _, _]) = (input.a.map(f32::to_bits), input.b.map(f32::to_bits));
     random_key([a, b], [c, d], [e, f])
 }

@@ -100,6 +100,9 @@ impl Command {
         let rules = self.rules()?;
         let device = self.open(output)?;
         let experiment = self.experiment(&scene, base, grid, device.info())?;
+        for text in words::unbounded(&experiment) {
+            remark(&text, output);
+        }
         if self.dry_run {
             return foretell(&experiment, device, output);
         }

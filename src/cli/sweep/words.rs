@@ -1,6 +1,8 @@
 //! What is said of a sweep.
 
 use crate::error::counted;
+use crate::knobs::short;
+use crate::scene::Unbounded;
 use crate::sweep::{Experiment, Progress, ReferenceSummary, Step, Summary};
 use std::path::Path;
 use std::time::Duration;
@@ -14,6 +16,22 @@ pub(super) fn several_sizes(experiment: &Experiment) -> Option<String> {
             "lampray: the runs have several sizes; the report analyses those of {width} x {height}"
         )
     })
+}
+
+/// A warning of each material whose variance has no bound, once for all runs of the grid.
+pub(super) fn unbounded(experiment: &Experiment) -> Vec<String> {
+    let all = experiment.plan.unbounded.iter();
+    let warn = |(name, (worst, runs)): (&String, &(Unbounded, usize))| {
+        format!(
+            "lampray: warning: materials.{}: survival is not above the square of its albedo in {}; at worst, {} and {:.4}, every hit multiplies the second moment of a path's weight by {:.4}; `lampray check` tells more of each",
+            short(name),
+            counted(*runs, "run"),
+            worst.survival,
+            worst.albedo * worst.albedo,
+            worst.growth()
+        )
+    };
+    all.map(warn).collect()
 }
 
 /// Why references are missing.
