@@ -169,7 +169,7 @@ fn main() {
         let mut alike = entries.iter().filter(|other| other.count == entry.count);
         let first = alike.next().map_or(f64::NAN, worth);
         println!(
-            "| {} | {} | {:.2} | {:.2} | {:.4} | {:.2} | {:.2} |",
+            "| {} | {} | {:.2} | {:.2} | {:.4} | {:.3} | {:.3} |",
             entry.count,
             entry.choice,
             entry.pack,
