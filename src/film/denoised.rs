@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 pub struct Denoising {
     /// Passes, each with taps twice as far apart as the one before: the last looks 2^passes pixels far.
     pub passes: u32,
-    /// Differences of luminance that are taken for noise, in standard errors of that difference.
-    pub luminance: f64,
+    /// Differences of light that the first pass takes for noise, in standard errors of that difference.
+    pub light: f64,
     /// Differences of normals, as the distance between their tips.
     pub normal: f64,
     /// Distances from the other pixel's tangent plane, in widths of a pixel there.
@@ -19,8 +19,8 @@ impl Denoising {
     /// What is good for most pictures.
     pub const USUAL: Self = Self {
         passes: 5,
-        luminance: 2.5,
-        normal: 0.25,
+        light: 2.0,
+        normal: 0.2,
         depth: 1.0,
     };
 }
