@@ -47,7 +47,7 @@ impl DenoiseOptions {
 
 fn width(text: &str) -> std::result::Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(value) if (1e-3..=1e3).contains(&value) => Ok(value),
+        Ok(value) if Denoising::WIDTHS.contains(&value) => Ok(value),
         _ => Err("give a width from 0.001 to 1000".into()),
     }
 }

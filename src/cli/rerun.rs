@@ -46,6 +46,13 @@ impl Command {
         }
         let region = region_of(&self.image, &record, &scene)?;
         let [first, end] = whole_range(&self.image, &record)?;
+        let denoise = record.denoised.map(|denoised| denoised.by);
+        if denoise.is_some_and(|by| !by.is_sound()) {
+            return damaged(
+                &self.image,
+                "its record says how it was denoised, and that cannot be".into(),
+            );
+        }
         if record.samples < end - first && !output.quiet {
             note(&format!(
                 "warning: {} was stopped when some of its pixels had {} samples and others up to {}: rendering {} of each",
@@ -63,7 +70,7 @@ impl Command {
             region,
             samples: first..end,
             aovs,
-            denoise: record.denoised.map(|denoised| denoised.by),
+            denoise,
             device: &device,
             rules: StopRules::default(),
             keep: KeepOptions::default(),

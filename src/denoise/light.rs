@@ -62,12 +62,12 @@ pub(super) fn means(
     (0..picture.pixels()).into_par_iter().map(mean).collect()
 }
 
-/// Mean over pixels.
+/// Mean over pixels; what is no number counts as nothing.
 pub(super) fn mean_of(pixels: &[[f32; 3]]) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for pixel in pixels {
         for (sum, value) in sums.iter_mut().zip(pixel) {
-            *sum += f64::from(*value);
+            *sum += f64::from(if value.is_finite() { *value } else { 0.0 });
         }
     }
     sums.map(|sum| sum / pixels.len().max(1) as f64)

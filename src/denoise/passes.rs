@@ -13,7 +13,7 @@ const BLOCK: u32 = 256;
 const SPREADS: u32 = 2;
 /// What a pass takes for noise of the differences that the one before took: what is left is less and less noise, and
 /// neighbours have taps in common, which their variance does not show. Dammertz et al. halve it, without a variance.
-const NARROWING: f64 = 0.7;
+const NARROWING: f64 = 0.85;
 /// Taps on each side.
 const REACH: u32 = 2;
 

@@ -19,7 +19,7 @@ const BLOCK: [u32; 2] = [256, 48];
 /// Below this a shade is black: what is divided by it would be anything.
 const BLACK: f32 = 1e-3;
 /// The largest spread: beyond, a pixel that the background shows through would be like everything.
-const WIDEST: f32 = 3.0;
+const WIDEST: f32 = 30.0;
 /// Radiance beyond it, or that is no number, takes part in nothing: sums of it would not be finite.
 const BRIGHTEST: f32 = 1e30;
 

@@ -1,6 +1,7 @@
 //! What a record says of a picture that was denoised.
 
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
 /// How to denoise. Widths are of Gaussian weights: at one of them a pixel counts 1/e.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,6 +24,17 @@ impl Denoising {
         normal: 0.2,
         depth: 1.0,
     };
+    /// What passes may be.
+    pub const PASSES: RangeInclusive<u32> = 1..=8;
+    /// What the three widths may be.
+    pub const WIDTHS: RangeInclusive<f64> = 1e-3..=1e3;
+
+    /// Whether it can be done: a record may say anything.
+    pub fn is_sound(&self) -> bool {
+        let widths = [self.light, self.normal, self.depth];
+        Self::PASSES.contains(&self.passes)
+            && widths.iter().all(|width| Self::WIDTHS.contains(width))
+    }
 }
 
 /// A picture that was denoised is no mean of samples any more: it is less noisy, and biased.

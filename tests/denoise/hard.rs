@@ -140,3 +140,35 @@ fn who_will_not_wait_gets_nothing() {
         assert_eq!(asked, patience + 1);
     }
 }
+
+#[test]
+fn a_record_that_asks_for_nonsense_is_not_sound() {
+    let usual = Denoising::USUAL;
+    assert!(usual.is_sound());
+    for passes in [0, 9, u32::MAX] {
+        assert!(!Denoising { passes, ..usual }.is_sound());
+    }
+    for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(
+            !Denoising {
+                light: width,
+                ..usual
+            }
+            .is_sound()
+        );
+        assert!(
+            !Denoising {
+                normal: width,
+                ..usual
+            }
+            .is_sound()
+        );
+        assert!(
+            !Denoising {
+                depth: width,
+                ..usual
+            }
+            .is_sound()
+        );
+    }
+}
