@@ -39,8 +39,8 @@ fn noise_of_a_wall(fault: Fault) -> [f64; 2] {
     })
 }
 
-/// Five passes whose taps are all neighbours are a Gaussian of 2.2 pixels, and divide the noise by 8 at most.
-const FALL: f64 = 6.0;
+/// By how much noise falls: measured are 6.6, and 4.3 where the taps of every pass are neighbours.
+const FALL: f64 = 5.3;
 
 #[test]
 fn a_flat_wall_keeps_its_mean_and_loses_its_noise() {
