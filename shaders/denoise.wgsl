@@ -15,9 +15,9 @@ struct DenoiseJob {
     step: u32,
     // 1: the variance alone is spread, by the guides alone.
     only_variance: u32,
-    // What squared differences are multiplied by: of luminance, in variances; of normals; of the distance from
-    // the other's tangent plane, in widths of a pixel there.
-    luminance: f32,
+    // What squared differences are multiplied by: of light, in variances; of normals; of the distance from the
+    // other's tangent plane, in widths of a pixel there.
+    light: f32,
     normal: f32,
     depth: f32,
     _pad0: u32,
@@ -37,7 +37,7 @@ struct Site {
     kind: vec4<f32>,
 }
 
-// Light before the surfaces' albedo, with the variance of its luminance.
+// Light before the surfaces' albedo, with the mean of its three variances.
 struct Estimate {
     light: vec3<f32>,
     variance: f32,
@@ -52,11 +52,6 @@ struct Estimate {
 const KIND: f32 = 50.0;
 // Beyond this exponent a weight could not be seen in 32 bits.
 const FARTHEST: f32 = 40.0;
-
-// Rec. 709.
-fn luminance(light: vec3<f32>) -> f32 {
-    return dot(light, vec3<f32>(0.2126, 0.7152, 0.0722));
-}
 
 // Of the cubic B-spline, 1/16 (1, 4, 6, 4, 1), at -2 to 2.
 fn spline(offset: i32) -> f32 {
@@ -74,10 +69,11 @@ fn site_distance(a: Site, b: Site) -> f32 {
     return job.normal * dot(turn, turn) + job.depth * steps * steps + KIND * dot(other, other);
 }
 
-// The same of their light.
+// The same of their light. Colours count: neighbours of two walls may be as bright as each other.
 fn light_distance(a: Estimate, b: Estimate) -> f32 {
-    let apart = lesser(abs(luminance(a.light) - luminance(b.light)), 1e15);
-    return job.luminance * apart * apart / greater(a.variance + b.variance, 1e-30);
+    let apart = a.light - b.light;
+    let square = lesser(dot(apart, apart) / 3.0, 1e30);
+    return job.light * square / greater(a.variance + b.variance, 1e-30);
 }
 
 fn smoothed_at(at: vec2<u32>) -> Estimate {

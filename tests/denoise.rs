@@ -5,6 +5,8 @@ mod support;
 
 #[path = "denoise/better.rs"]
 mod better;
+#[path = "denoise/fragile.rs"]
+mod fragile;
 #[path = "denoise/hard.rs"]
 mod hard;
 #[path = "denoise/keeps.rs"]

@@ -202,7 +202,7 @@ fn rust_layouts() -> BTreeMap<&'static str, Layout> {
                 window,
                 step,
                 only_variance,
-                luminance,
+                light,
                 normal,
                 depth
             }),

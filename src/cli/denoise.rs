@@ -22,9 +22,9 @@ pub(crate) struct DenoiseOptions {
     /// Passes of the filter: the last looks 2^N pixels far
     #[arg(long, value_name = "N", requires = "denoise", value_parser = clap::value_parser!(u32).range(1..=8), default_value_t = Denoising::USUAL.passes, help_heading = "Denoising")]
     denoise_passes: u32,
-    /// Differences of luminance taken for noise, in standard errors: more is smoother, and blurs shadows
-    #[arg(long, value_name = "S", requires = "denoise", value_parser = width, default_value_t = Denoising::USUAL.luminance, allow_negative_numbers = true, help_heading = "Denoising")]
-    denoise_luminance: f64,
+    /// Differences of light taken for noise, in standard errors: more is smoother, and blurs shadows
+    #[arg(long, value_name = "S", requires = "denoise", value_parser = width, default_value_t = Denoising::USUAL.light, allow_negative_numbers = true, help_heading = "Denoising")]
+    denoise_light: f64,
     /// Differences of normals that may mix, as the distance between the tips of unit normals
     #[arg(long, value_name = "S", requires = "denoise", value_parser = width, default_value_t = Denoising::USUAL.normal, allow_negative_numbers = true, help_heading = "Denoising")]
     denoise_normal: f64,
@@ -38,7 +38,7 @@ impl DenoiseOptions {
     pub(crate) fn wanted(&self) -> Option<Denoising> {
         self.denoise.then_some(Denoising {
             passes: self.denoise_passes,
-            luminance: self.denoise_luminance,
+            light: self.denoise_light,
             normal: self.denoise_normal,
             depth: self.denoise_depth,
         })
@@ -47,7 +47,7 @@ impl DenoiseOptions {
 
 fn width(text: &str) -> std::result::Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(value) if (1e-3..=1e3).contains(&value) => Ok(value),
+        Ok(value) if Denoising::WIDTHS.contains(&value) => Ok(value),
         _ => Err("give a width from 0.001 to 1000".into()),
     }
 }

@@ -46,6 +46,7 @@ impl Command {
         }
         let region = region_of(&self.image, &record, &scene)?;
         let [first, end] = whole_range(&self.image, &record)?;
+<<<<<<< ours
         let rules = match (&record.adaptive, record.target_error) {
             (Some(_), Some(target)) => StopRules::adaptive(target),
             _ => StopRules::default(),
@@ -60,6 +61,18 @@ impl Command {
             ));
         }
         if even && record.samples < end - first && !output.quiet {
+||||||| base
+        if record.samples < end - first && !output.quiet {
+=======
+        let denoise = record.denoised.map(|denoised| denoised.by);
+        if denoise.is_some_and(|by| !by.is_sound()) {
+            return damaged(
+                &self.image,
+                "its record says how it was denoised, and that cannot be".into(),
+            );
+        }
+        if record.samples < end - first && !output.quiet {
+>>>>>>> theirs
             note(&format!(
                 "warning: {} was stopped when some of its pixels had {} samples and others up to {}: rendering {} of each",
                 self.image.display(),
@@ -76,7 +89,7 @@ impl Command {
             region,
             samples: first..end,
             aovs,
-            denoise: record.denoised.map(|denoised| denoised.by),
+            denoise,
             device: &device,
             rules,
             keep: KeepOptions::default(),

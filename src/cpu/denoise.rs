@@ -8,11 +8,6 @@ use rayon::prelude::*;
 const KIND: f32 = 50.0;
 const FARTHEST: f32 = 40.0;
 
-/// Rec. 709.
-pub fn luminance(light: Vec3) -> f32 {
-    light.dot(Vec3::new(0.2126, 0.7152, 0.0722))
-}
-
 /// Of the cubic B-spline, 1/16 (1, 4, 6, 4, 1), at -2 to 2.
 fn spline(offset: i32) -> f32 {
     match offset.abs() {
@@ -34,11 +29,11 @@ pub fn site_distance(job: &DenoiseJob, a: &Site, b: &Site) -> f32 {
     job.normal * turn.dot(turn) + job.depth * steps * steps + KIND * other.dot(other)
 }
 
-/// The same of their light.
+/// The same of their light. Colours count: neighbours of two walls may be as bright as each other.
 fn light_distance(job: &DenoiseJob, a: &Estimate, b: &Estimate) -> f32 {
-    let between = luminance(a.light.into()) - luminance(b.light.into());
-    let apart = lesser(between.abs(), 1e15);
-    job.luminance * apart * apart / greater(a.variance + b.variance, 1e-30)
+    let apart = Vec3::from(a.light) - Vec3::from(b.light);
+    let square = lesser(apart.dot(apart) / 3.0, 1e30);
+    job.light * square / greater(a.variance + b.variance, 1e-30)
 }
 
 fn smoothed_at(job: &DenoiseJob, sites: &[Site], estimates: &[Estimate], at: [u32; 2]) -> Estimate {

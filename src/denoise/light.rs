@@ -1,37 +1,34 @@
 //! Between a picture's pixels and light before albedo.
 
-use crate::cpu::denoise::luminance;
 use crate::film::Picture;
 use crate::pack::Estimate;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// Rec. 709.
-const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 /// No variance is larger: sums of some, and their squares' weights, stay finite.
 const MOST: f32 = 1e30;
 
-/// Light and the variance of its luminance, for every pixel.
-///
-/// Channels of a path rise and fall together, so their standard errors are added; that is right or too much.
+/// Light and its variance, for every pixel.
 pub(super) fn estimates(picture: &Picture, shades: &[[f32; 3]]) -> Vec<Estimate> {
-    let everywhere = picture.record.mean.map(|value| value as f32);
+    let everywhere = Vec3::from(picture.record.mean.map(|value| value as f32));
     let estimate = |pixel: usize| {
         let (mean, shade) = (Vec3::from(picture.mean[pixel]), Vec3::from(shades[pixel]));
         let light = finite(mean / shade);
         let count = picture.samples[pixel];
-        let error = |channel: usize| {
-            let variance = picture.variance[pixel][channel] / count;
-            LUMINANCE[channel] * variance.max(0.0).sqrt() / shade[channel]
-        };
         // One sample says nothing of its noise: it is as uncertain as it, and what is around it, is bright.
-        let error = match count < 2.0 {
-            true => luminance(light) + luminance(finite(Vec3::from(everywhere) / shade)),
-            false => error(0) + error(1) + error(2),
+        let squares = match count < 2.0 {
+            true => (light + finite(everywhere / shade)).powf(2.0),
+            false => Vec3::from(picture.variance[pixel]) / count / (shade * shade),
         };
+        let variance = squares.max(Vec3::ZERO).element_sum() / 3.0;
         Estimate {
             light: light.to_array(),
-            variance: (error * error).min(MOST),
+            // Of no number nothing is known, and the neighbours' is taken.
+            variance: if variance.is_nan() {
+                0.0
+            } else {
+                variance.min(MOST)
+            },
         }
     };
     (0..picture.pixels())
@@ -65,12 +62,12 @@ pub(super) fn means(
     (0..picture.pixels()).into_par_iter().map(mean).collect()
 }
 
-/// Mean over pixels.
+/// Mean over pixels; what is no number counts as nothing.
 pub(super) fn mean_of(pixels: &[[f32; 3]]) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for pixel in pixels {
         for (sum, value) in sums.iter_mut().zip(pixel) {
-            *sum += f64::from(*value);
+            *sum += f64::from(if value.is_finite() { *value } else { 0.0 });
         }
     }
     sums.map(|sum| sum / pixels.len().max(1) as f64)

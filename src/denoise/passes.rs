@@ -11,6 +11,9 @@ const BLOCK: u32 = 256;
 /// Passes that spread the variance before: what few samples say of it is very uncertain, and low where by chance
 /// the bright ones are missing.
 const SPREADS: u32 = 2;
+/// What a pass takes for noise of the differences that the one before took: what is left is less and less noise, and
+/// neighbours have taps in common, which their variance does not show. Dammertz et al. halve it, without a variance.
+const NARROWING: f64 = 0.85;
 /// Taps on each side.
 const REACH: u32 = 2;
 
@@ -19,6 +22,8 @@ const REACH: u32 = 2;
 struct Pass {
     step: u32,
     only_variance: bool,
+    /// What the width for differences of light is multiplied by.
+    narrowed: f64,
 }
 
 /// All passes in order; none where `watch` stopped it.
@@ -30,14 +35,17 @@ pub(super) fn run(
     mut estimates: Vec<Estimate>,
     watch: &mut Watch,
 ) -> Result<Option<Vec<Estimate>>> {
-    let pass = |only_variance| {
-        move |number: u32| Pass {
-            step: 1u32 << number,
-            only_variance,
-        }
-    };
-    let spreads = (0..SPREADS).map(pass(true));
-    let all: Vec<_> = spreads.chain((0..by.passes).map(pass(false))).collect();
+    let spreads = (0..SPREADS).map(|number| Pass {
+        step: 1 << number,
+        only_variance: true,
+        narrowed: 1.0,
+    });
+    let smooths = (0..by.passes).map(|number| Pass {
+        step: 1 << number,
+        only_variance: false,
+        narrowed: NARROWING.powi(number as i32),
+    });
+    let all: Vec<_> = spreads.chain(smooths).collect();
     for (done, pass) in all.iter().enumerate() {
         let mut next = vec![Estimate::default(); estimates.len()];
         for rect in blocks(size) {
@@ -85,7 +93,7 @@ fn blocks([width, height]: [u32; 2]) -> impl Iterator<Item = Rect> {
 pub(super) fn widths(by: Denoising) -> DenoiseJob {
     let inverse_square = |width: f64| (1.0 / (width * width)) as f32;
     DenoiseJob {
-        luminance: inverse_square(by.luminance),
+        light: inverse_square(by.light),
         normal: inverse_square(by.normal),
         depth: inverse_square(by.depth),
         ..DenoiseJob::default()
@@ -107,7 +115,10 @@ fn job([width, height]: [u32; 2], by: Denoising, pass: Pass, rect: Rect) -> (Den
         window: [around.width(), around.height()],
         step: pass.step,
         only_variance: pass.only_variance.into(),
-        ..widths(by)
+        ..widths(Denoising {
+            light: by.light * pass.narrowed,
+            ..by
+        })
     };
     (job, around)
 }

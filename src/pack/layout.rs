@@ -191,8 +191,8 @@ pub struct DenoiseJob {
     pub step: u32,
     /// 1: the variance alone is spread, by the guides alone.
     pub only_variance: u32,
-    /// What squared differences are multiplied by: of luminance, in variances.
-    pub luminance: f32,
+    /// What squared differences are multiplied by: of light, in variances.
+    pub light: f32,
     /// Of normals.
     pub normal: f32,
     /// Of the distance from the other's tangent plane, in widths of a pixel there.
@@ -221,7 +221,7 @@ pub struct Site {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Estimate {
     pub light: Vec3,
-    /// Of its luminance.
+    /// Mean of those of its channels.
     pub variance: f32,
 }
 

@@ -1,12 +1,13 @@
 //! Hard inputs, sizes, devices that fail and people who will not wait.
 
+use crate::fragile::{Fragile, SOUND};
 use crate::room::{body, denoised, denoised_by, made_up, scene, shipped};
-use lampray::cpu::{Cpu, denoise::pass};
+use lampray::Error;
+use lampray::cpu::Cpu;
 use lampray::denoise::{denoise, window};
-use lampray::device::{Block, Device, DeviceInfo, DeviceKind, Limits, Traced};
-use lampray::error::{Error, Result};
+use lampray::device::{Device, DeviceKind};
 use lampray::film::Denoising;
-use lampray::pack::*;
+use lampray::pack::Rect;
 use lampray::render::{Spares, Task, whole};
 use std::ops::ControlFlow;
 
@@ -50,9 +51,9 @@ fn blocks_change_nothing() {
     let scene = shipped("cornell", size[0], size[1], 4);
     let task = Task::new(&scene);
     let picture = made_up(&task, |x, y| [f64::from(x + y) / 400.0 + 0.1; 3], 4);
-    let mut device: Box<dyn Device> = Box::new(Fragile::new(usize::MAX));
+    let mut device: Box<dyn Device> = Box::new(Fragile::new(usize::MAX, SOUND));
     let by_blocks = denoised_by(&mut device, &task, &picture, false).unwrap();
-    // The same by a device that is given everything at once.
+    // Part of it alone, whose blocks lie elsewhere.
     let crop = Rect {
         x0: 150,
         y0: 20,
@@ -96,11 +97,11 @@ fn a_device_that_is_lost_is_replaced_by_the_twin() {
     let picture = made_up(&task, |_, _| [0.5; 3], 4);
     let wanted = denoised(&task, &picture).mean;
     for calls in [0, 1, 2, 4] {
-        let mut device: Box<dyn Device> = Box::new(Fragile::new(calls));
+        let mut device: Box<dyn Device> = Box::new(Fragile::new(calls, SOUND));
         let got = denoised_by(&mut device, &task, &picture, true).unwrap();
         assert_eq!(got.mean, wanted, "lost after {calls} calls");
         assert_eq!(device.info().kind, DeviceKind::Cpu);
-        let mut device: Box<dyn Device> = Box::new(Fragile::new(calls));
+        let mut device: Box<dyn Device> = Box::new(Fragile::new(calls, SOUND));
         let refused = denoised_by(&mut device, &task, &picture, false);
         assert!(matches!(refused, Err(Error::DeviceLost(_))));
     }
@@ -140,86 +141,34 @@ fn who_will_not_wait_gets_nothing() {
     }
 }
 
-/// The CPU twin, which is lost after some calls of the denoiser.
-struct Fragile {
-    twin: Cpu,
-    info: DeviceInfo,
-    left: std::cell::Cell<usize>,
-}
-
-impl Fragile {
-    fn new(left: usize) -> Self {
-        let info = DeviceInfo {
-            kind: DeviceKind::Hardware,
-            ..lampray::cpu::info()
-        };
-        Self {
-            twin: Cpu::new(),
-            info,
-            left: left.into(),
-        }
+#[test]
+fn a_record_that_asks_for_nonsense_is_not_sound() {
+    let usual = Denoising::USUAL;
+    assert!(usual.is_sound());
+    for passes in [0, 9, u32::MAX] {
+        assert!(!Denoising { passes, ..usual }.is_sound());
     }
-
-    fn strike(&self) -> Result<()> {
-        let lost = || Error::DeviceLost("the device fragile was lost (on purpose)".into());
-        self.left
-            .set(self.left.get().checked_sub(1).ok_or_else(lost)?);
-        Ok(())
-    }
-}
-
-impl Device for Fragile {
-    fn info(&self) -> &DeviceInfo {
-        &self.info
-    }
-
-    fn load(&mut self, scene: &Packed) -> Result<()> {
-        self.strike()?;
-        self.twin.load(scene)
-    }
-
-    fn start(&mut self, block: Block) -> Result<()> {
-        self.twin.start(block)
-    }
-
-    fn finish(&mut self) -> Result<Traced> {
-        self.twin.finish()
-    }
-
-    fn features(&mut self, rect: Rect) -> Result<Vec<Feature>> {
-        self.twin.features(rect)
-    }
-
-    fn guides(&mut self, rect: Rect, fineness: u32) -> Result<Vec<Guide>> {
-        self.strike()?;
-        self.twin.guides(rect, fineness)
-    }
-
-    fn denoise(
-        &mut self,
-        job: &DenoiseJob,
-        sites: &[Site],
-        estimates: &[Estimate],
-    ) -> Result<Vec<Estimate>> {
-        self.strike()?;
-        Ok(pass(job, sites, estimates))
-    }
-
-    fn points(&mut self, strategy: &Strategy, job: &PointsJob) -> Result<Vec<Draw>> {
-        self.twin.points(strategy, job)
-    }
-
-    fn limits(&self) -> Result<Option<Limits>> {
-        self.twin.limits()
-    }
-
-    fn canary(
-        &mut self,
-        strategy: &Strategy,
-        job: &CanaryJob,
-        scenes: &[CanaryScene],
-        inputs: &[[u32; 4]],
-    ) -> Result<Option<Vec<[u32; 4]>>> {
-        self.twin.canary(strategy, job, scenes, inputs)
+    for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(
+            !Denoising {
+                light: width,
+                ..usual
+            }
+            .is_sound()
+        );
+        assert!(
+            !Denoising {
+                normal: width,
+                ..usual
+            }
+            .is_sound()
+        );
+        assert!(
+            !Denoising {
+                depth: width,
+                ..usual
+            }
+            .is_sound()
+        );
     }
 }

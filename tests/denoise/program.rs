@@ -130,8 +130,40 @@ fn what_cannot_be_written_is_refused_first() {
         2,
         "--denoise-passes",
     );
-    refused("render s.toml --denoise --denoise-luminance -1", 2, "0.001");
+    refused("render s.toml --denoise --denoise-light -1", 2, "0.001");
     std::fs::create_dir(folder.path().join("y.denoised.png")).unwrap();
     refused("render s.toml --denoise -o y.png", 73, "y.denoised.png");
     assert!(!folder.path().join("y.png").exists());
+}
+
+/// A megapixel takes seconds to denoise: a signal that comes when the plain picture is there comes in the midst of it.
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_the_plain_picture_and_the_checkpoint() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let line = "render s.toml --device cpu --width 1000 --height 1000 --max-bounces 0 --spp 2 --denoise -o big.exr --checkpoint c";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_lampray"))
+        .current_dir(folder.path())
+        .args(line.split(' '))
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let began = std::time::Instant::now();
+    while !path("big.exr").exists() {
+        assert!(began.elapsed().as_secs() < 300, "no picture");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success(),
+        "the signal was sent"
+    );
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(path("big.exr").exists() && path("c").exists());
+    assert!(!path("big.denoised.exr").exists());
 }

@@ -1,10 +1,11 @@
 //! Scenes, pictures that are made up, and the denoiser run on them.
 
+use crate::fragile::{Fault, Fragile};
 use crate::support::stream::Stream;
+use lampray::Result;
 use lampray::cpu::Cpu;
 use lampray::denoise::denoise;
 use lampray::device::Device;
-use lampray::error::Result;
 use lampray::film::{Denoising, Picture};
 use lampray::render::{Rendering, Spares, Task, picture, render};
 use lampray::scene::{Assignment, Scene};
@@ -87,6 +88,12 @@ pub fn denoised_by(
     let mut watch = |_| ControlFlow::Continue(());
     denoise(device, task, picture, Denoising::USUAL, spares, &mut watch)
         .map(|picture| picture.expect("nobody stopped it"))
+}
+
+/// With something wrong in every pass.
+pub fn denoised_with(fault: Fault, task: &Task, picture: &Picture) -> Picture {
+    let mut device: Box<dyn Device> = Box::new(Fragile::new(usize::MAX, fault));
+    denoised_by(&mut device, task, picture, false).unwrap()
 }
 
 /// On the CPU twin.

@@ -55,7 +55,7 @@ fn a_pass_is_the_same_on_both_devices() {
             window: WINDOW,
             step,
             only_variance,
-            luminance: 0.2,
+            light: 0.2,
             normal: 10.0,
             depth: 1.0,
             _pad0: 0,
