@@ -46,7 +46,13 @@ impl Command {
         }
         let region = region_of(&self.image, &record, &scene)?;
         let [first, end] = whole_range(&self.image, &record)?;
-<<<<<<< ours
+        let denoise = record.denoised.map(|denoised| denoised.by);
+        if denoise.is_some_and(|by| !by.is_sound()) {
+            return damaged(
+                &self.image,
+                "its record says how it was denoised, and that cannot be".into(),
+            );
+        }
         let rules = match (&record.adaptive, record.target_error) {
             (Some(_), Some(target)) => StopRules::adaptive(target),
             _ => StopRules::default(),
@@ -61,18 +67,6 @@ impl Command {
             ));
         }
         if even && record.samples < end - first && !output.quiet {
-||||||| base
-        if record.samples < end - first && !output.quiet {
-=======
-        let denoise = record.denoised.map(|denoised| denoised.by);
-        if denoise.is_some_and(|by| !by.is_sound()) {
-            return damaged(
-                &self.image,
-                "its record says how it was denoised, and that cannot be".into(),
-            );
-        }
-        if record.samples < end - first && !output.quiet {
->>>>>>> theirs
             note(&format!(
                 "warning: {} was stopped when some of its pixels had {} samples and others up to {}: rendering {} of each",
                 self.image.display(),
