@@ -12,11 +12,12 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use support::gate::MOST_ERRORS;
 
-const SCENES: [&str; 11] = [
+const SCENES: [&str; 12] = [
     "cornell",
     "cornell-large-lamp",
     "cornell-small-lamp",
     "furnace",
+    "gloss",
     "integrating-sphere",
     "many-lamps",
     "montelight-complex",
