@@ -318,6 +318,7 @@ fn enums_have_the_same_numbers_on_both_sides() {
         expected::<InterruptionWeight>("INTERRUPTION_WEIGHT"),
         expected::<InterruptionOrder>("INTERRUPTION_ORDER"),
         expected::<LastRay>("LAST_RAY"),
+        expected::<Sequence>("SEQUENCE"),
         expected::<Probe>("PROBE"),
         expected::<Canary>("CANARY"),
         vec![("RUN_LENGTH".to_string(), RUN_LENGTH)],

@@ -403,3 +403,33 @@ fn a_second_load_of_a_scene_changes_nothing() {
         check(&mut *gpu);
     }
 }
+
+/// A range may begin where a randomisation does, and nowhere else; too few samples for two of them are refused.
+#[test]
+fn randomisations_that_cannot_be_are_refused() {
+    let scene = room(&["render.sequence=sobol", "render.samples=256"]);
+    let from = |start: u64| Task {
+        samples: start..start + 64,
+        ..Task::new(&scene)
+    };
+    let go = |task: &Task| {
+        let mut watch = |_: &_| ControlFlow::Continue(());
+        render(&mut Cpu::new(), task, &mut watch).map(|rendering| rendering.film.paths)
+    };
+    for start in [0, 32, 512] {
+        assert_eq!(go(&from(start)).unwrap(), 64 * 23 * 17);
+    }
+    let error = go(&from(48)).unwrap_err().to_string();
+    assert!(
+        error.contains("begin inside a randomisation") && error.contains("--sample-range 32..112"),
+        "{error}"
+    );
+    let few = ["render.sequence=sobol", "render.samples=31"].map(|text| Assignment::parse(text));
+    let few: Vec<_> = few.into_iter().collect::<Result<_, _>>().unwrap();
+    let error = Scene::parse("room.toml", ROOM, &few).unwrap_err();
+    let error = error.to_string();
+    assert!(
+        error.contains("32 samples a pixel or more") && error.contains("independent"),
+        "{error}"
+    );
+}

@@ -107,8 +107,8 @@ fn the_stated_rate_is_kept_with_randomisations() {
     for (name, first, second) in SETS {
         let mut alarms = 0;
         for _ in 0..40 {
-            let reference = first.render(32, 128, seed);
-            let test = second.render(32, 128, seed + 1);
+            let reference = first.render(16, 128, seed);
+            let test = second.render(16, 128, seed + 1);
             let verdict = compare(&reference, &test, Terms::default());
             alarms += u64::from(verdict.outcome == Outcome::Different);
             seed += 2;
