@@ -20,7 +20,7 @@ pub use rendering::Rendering;
 
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::Stop;
+use crate::film::{SCOUTS, Stop};
 use crate::pack::{Rect, Traversal};
 use crate::scene::Scene;
 use adaptive::Work;
@@ -98,7 +98,8 @@ impl Task<'_> {
     /// from the scouts.
     ///
     /// # Errors
-    /// [`Error::Internal`] for a film that this task cannot have left so.
+    /// [`Error::Internal`] for a film that this task cannot have left so; [`Error::Usage`] for samples that decide
+    /// on their own number.
     fn rest(&self, rendering: &Rendering) -> Result<Plan> {
         let film = &rendering.film;
         let samples = self.samples.clone();
@@ -107,6 +108,9 @@ impl Task<'_> {
             return Err(stray());
         }
         match (self.terms(), &rendering.scouts) {
+            (Some(_), _) if samples.end > SCOUTS => Err(Error::Usage(
+                "adaptive sampling decides by samples from 2^63 on: end the range of samples below, or sample evenly".into(),
+            )),
             (Some(terms), Some(scouts)) => adaptive::is_possible(&terms, film, scouts)
                 .then(|| Plan::new(self.region, samples))
                 .ok_or_else(stray),
