@@ -49,5 +49,5 @@ pub use raster_file::RasterFile;
 pub use read::{read_exr, read_record};
 pub use record::{PilotRecord, Record, Seconds, Stop};
 pub use relative::{QUANTILE, RelativeError, needed_samples};
-pub use scouts::{AdaptiveRecord, SCOUTS, Scouts, TILE, Tiles};
+pub use scouts::{AdaptiveRecord, SCOUTS, Scouts, Tiles};
 pub use text::SCENE_TEXT_LIMIT;

@@ -21,7 +21,7 @@ pub use rendering::Rendering;
 use crate::cpu::pilot::Pilot;
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::film::{Film, Stop};
+use crate::film::{Film, SCOUTS, Stop};
 use crate::knobs::{InterruptionRule, Sequence};
 use crate::pack::{Packed, Rect, Traversal};
 use crate::scene::Scene;
@@ -175,7 +175,8 @@ impl Task<'_> {
     /// from the scouts.
     ///
     /// # Errors
-    /// [`Error::Internal`] for a film that this task cannot have left so.
+    /// [`Error::Internal`] for a film that this task cannot have left so; [`Error::Usage`] for samples that decide
+    /// on their own number.
     fn rest(&self, rendering: &Rendering) -> Result<Plan> {
         self.refuse_cut()?;
         let film = &rendering.film;
@@ -185,6 +186,9 @@ impl Task<'_> {
             return Err(stray());
         }
         match (self.terms(), &rendering.scouts) {
+            (Some(_), _) if samples.end > SCOUTS => Err(Error::Usage(
+                "adaptive sampling decides by samples from 2^63 on: end the range of samples below, or sample evenly".into(),
+            )),
             (Some(terms), Some(scouts)) => adaptive::is_possible(&terms, film, scouts)
                 .then(|| Plan::new(self.region, samples))
                 .ok_or_else(stray),

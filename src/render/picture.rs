@@ -3,7 +3,7 @@
 use super::{Rendering, Task, adaptive, whole};
 use crate::device::DeviceInfo;
 use crate::film::{
-    AdaptiveRecord, Aov, Features, Film, Picture, PilotRecord, Record, Seconds, TILE,
+    AdaptiveRecord, Aov, Features, Film, Picture, PilotRecord, Record, Seconds, Tiles,
 };
 
 /// Identifies a scene's text in records.
@@ -60,7 +60,7 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         target_error: task.target_error,
         adaptive: rendering.scouts.as_ref().map(|scouts| AdaptiveRecord {
             rule: adaptive::RULE.into(),
-            tile: TILE,
+            tile: Tiles::of(task.region).side(),
             allowed: vec![[task.samples.start, task.samples.end]],
             scout_paths: scouts.film.paths,
             scout_rays: scouts.film.rays,

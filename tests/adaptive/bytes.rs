@@ -17,7 +17,7 @@ fn scene() -> Scene {
 
 fn task(scene: &Scene) -> Task<'_> {
     Task {
-        target_error: Some(0.06),
+        target_error: Some(0.03),
         adaptive: true,
         ..Task::new(scene)
     }

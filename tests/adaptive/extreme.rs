@@ -133,3 +133,20 @@ fn one_pixel() {
         );
     }
 }
+
+/// Samples that are among the scouts would decide on their own number.
+#[test]
+fn ranges_that_reach_the_scouts_are_refused() {
+    let sky = scene(SKY, &SIZE);
+    let task = Task {
+        target_error: Some(0.1),
+        adaptive: true,
+        samples: 0..(1 << 63) + 1,
+        ..Task::new(&sky)
+    };
+    let outcome = render(&mut lampray::cpu::Cpu::new(), &task, &mut |_| {
+        ControlFlow::Continue(())
+    });
+    let told = outcome.expect_err("it is refused").to_string();
+    assert!(told.contains("2^63"), "{told}");
+}

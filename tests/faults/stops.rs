@@ -184,7 +184,7 @@ const RULES: &[Row] = &[
 ];
 
 /// An error that takes about a second to reach.
-const NOISY: &[&str] = &["--target-error", "0.015"];
+const NOISY: &[&str] = &["--target-error", "0.015", "--even"];
 
 fn stopped(at: &Stage) -> Option<Stop> {
     let picture = read_exr(at.join("o.exr")).expect("a picture");
@@ -193,7 +193,10 @@ fn stopped(at: &Stage) -> Option<Stop> {
 
 /// Paths that the checkpoint holds.
 fn saved_paths(at: &Stage) -> u64 {
-    Saved::read(&at.join("c")).map_or(0, |checkpoint| checkpoint.film.paths)
+    Saved::read(&at.join("c")).map_or(0, |checkpoint| {
+        let scouts = checkpoint.scouts.map_or(0, |scouts| scouts.film.paths);
+        checkpoint.film.paths + scouts
+    })
 }
 
 /// Stops a render by a signal, which may take so long only; on a machine that has much else to do, in one of

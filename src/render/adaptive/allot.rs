@@ -24,6 +24,9 @@ const CAPS: i32 = 16;
 /// Quantiles that are tried, from [`QUANTILE`] to 1.
 const QUANTILES: usize = 20;
 
+/// How much the need of a neighbourhood may be over that of its pixels, each by itself.
+const SPARSE: f64 = 2.0;
+
 /// The needs of each tile's pixels, in order.
 struct Needs {
     tiles: Vec<Vec<f64>>,
@@ -49,15 +52,31 @@ pub(super) fn allot(scouts: &Film, target: f64, most: u64) -> Vec<u64> {
         .collect()
 }
 
-/// Samples that each pixel needs.
+/// Samples that each pixel needs: by the mean and the variance of its neighbourhood. Where few pixels of that are lit
+/// the two would make up to 25 times too much of it, so it is at most [`SPARSE`] times the mean of the pixels' own
+/// needs, by their brightness.
 fn needs(scouts: &Film, target: f64) -> Vec<f64> {
     let width = scouts.region.width() as usize;
     let brightness = scouts.brightness();
-    let [means, variances] =
-        [scouts.means(), scouts.variances()].map(|plane| smooth(&plane, width));
-    let both = means.iter().zip(&variances);
-    both.map(|(mean, variance)| needed_samples(*mean, *variance, brightness, target))
-        .collect()
+    let (means, variances) = (scouts.means(), scouts.variances());
+    let need = |mean: f64, variance: f64| needed_samples(mean, variance, brightness, target);
+    let own = means.iter().zip(&variances);
+    let weighted: Vec<f64> = own
+        .map(|(mean, variance)| mean * need(*mean, *variance))
+        .collect();
+    let [means, variances, weighted] =
+        [means, variances, weighted].map(|plane| smooth(&plane, width));
+    let of_pixel = |pixel: usize| {
+        let by_moments = need(means[pixel], variances[pixel]);
+        let own = SPARSE * weighted[pixel] / means[pixel];
+        // A pixel without any light around it has no noise either.
+        if means[pixel] > 0.0 {
+            by_moments.min(own)
+        } else {
+            0.0
+        }
+    };
+    (0..means.len()).map(of_pixel).collect()
 }
 
 impl Needs {

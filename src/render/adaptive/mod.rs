@@ -79,6 +79,7 @@ impl Terms {
             self.samples.clone(),
             film.counts.clone(),
             wanted,
+            rungs::FIRST,
         )
     }
 }
@@ -91,6 +92,8 @@ fn of_scouts(scouts: &Scouts) -> Work {
         SCOUTS..u64::MAX,
         film.counts.clone(),
         scouts.asked.clone(),
+        // Nobody sees them on their way.
+        u64::MAX,
     )
 }
 

@@ -15,10 +15,10 @@ const FEWEST: u64 = 64;
 
 /// Hands out blocks until every pixel has as many samples as its tile wants.
 ///
-/// Pixels advance together, from rung to rung of one ladder: a render that is stopped has no part that lags far
-/// behind. On each rung the pixels that are to go from the same count to the same count are covered by
-/// rectangles, each as wide as it can be and then as high: neighbouring tiles mostly want the same, and so share
-/// a dispatch.
+/// The picture's pixels advance together, from one level to twice as many samples: a render that is stopped has no
+/// part that lags far behind. On each level the pixels that are to go from the same count to the same count are
+/// covered by rectangles, each as wide as it can be and then as high. So all tiles that go on to the next level
+/// share dispatches with their neighbours, and each has a dispatch of its own, a long one, where it ends at most.
 #[derive(Clone, Debug)]
 pub struct Work {
     region: Rect,
@@ -30,24 +30,26 @@ pub struct Work {
     /// Of each pixel, samples that were handed out.
     taken: Vec<u64>,
     /// Where pixels go now, samples.
-    rung: u64,
+    level: u64,
     /// The pixel from which on one is looked for.
     cursor: usize,
     pub(in super::super) pace: Pace,
 }
 
 impl Work {
-    /// `taken` are the samples that pixels have already, `wanted` those that they are to have, by tiles.
+    /// `taken` are the samples that pixels have already, `wanted` those that they are to have, by tiles; `level` is
+    /// the first.
     pub(in super::super) fn new(
         region: Rect,
         samples: Range<u64>,
         taken: Vec<u64>,
         wanted: Vec<u64>,
+        level: u64,
     ) -> Self {
         Self {
             region,
             tiles: Tiles::of(region),
-            rung: rungs::FIRST,
+            level,
             samples,
             wanted,
             taken,
@@ -69,10 +71,10 @@ impl Work {
         self.pace.learn(block, took, is_first);
     }
 
-    /// Samples that a pixel is to have on this rung.
+    /// Samples that a pixel is to have on this level.
     fn goal(&self, pixel: usize) -> u64 {
         let wanted = self.wanted[self.tiles.of_pixel(pixel)];
-        rungs::whole(&self.samples, self.rung).min(wanted)
+        rungs::whole(&self.samples, self.level).min(wanted)
     }
 
     /// The next block, or nothing when all is done.
@@ -84,11 +86,11 @@ impl Work {
             if found.is_some() {
                 break found?;
             }
-            // What was cut short on this rung is below the goal still.
+            // What was cut short on this level is below the goal still.
             if self.cursor > 0 {
                 self.cursor = 0;
-            } else if self.rung < highest {
-                self.rung = rungs::next(self.rung);
+            } else if self.level < highest {
+                self.level = self.level.saturating_mul(2);
             } else {
                 return None;
             }
@@ -139,5 +141,64 @@ impl Work {
         let affordable = (self.pace.budget / FEWEST).clamp(run, LONG * LONG);
         let end = (from + affordable) / run * run;
         end.min(goal) - from
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const REGION: Rect = Rect {
+        x0: 5,
+        y0: 7,
+        x1: 261,
+        y1: 253,
+    };
+
+    /// What tiles may want: anything up to a few thousand, in no order.
+    fn wants(samples: &Range<u64>) -> Vec<u64> {
+        let tiles = Tiles::of(REGION).count();
+        let count = |tile: usize| rungs::reach((tile * 7919 % 1500) as f64, 1 << 40);
+        (0..tiles)
+            .map(|tile| rungs::whole(samples, count(tile)))
+            .collect()
+    }
+
+    /// Every sample of every pixel that is wanted is taken once, in order, and runs end where they should.
+    #[test]
+    fn every_sample_is_taken_once_and_in_order() {
+        for (samples, budget) in [(0..1 << 40, 1 << 20), (5..1 << 40, 5000), (9..640, 70_000)] {
+            let wanted = wants(&samples);
+            let mut next = vec![0; REGION.area()];
+            let mut work = Work::new(REGION, samples.clone(), next.clone(), wanted.clone(), 32);
+            work.pace = Pace::fixed(budget);
+            while let Some(block) = work.next_block() {
+                assert!(block.paths() <= budget.max(16 * 64), "{block:?}");
+                for y in block.rect.y0..block.rect.y1 {
+                    for x in block.rect.x0..block.rect.x1 {
+                        let pixel = (y - REGION.y0) * REGION.width() + x - REGION.x0;
+                        let count = &mut next[pixel as usize];
+                        assert_eq!(samples.start + *count, block.first_sample);
+                        *count += u64::from(block.samples);
+                        assert_eq!(rungs::whole(&samples, *count), *count, "a broken run");
+                    }
+                }
+            }
+            let tiles = Tiles::of(REGION);
+            assert!((0..next.len()).all(|pixel| next[pixel] == wanted[tiles.of_pixel(pixel)]));
+            assert!(work.is_empty());
+        }
+    }
+
+    /// Even where no two neighbours want the same there are only a few more blocks than tiles.
+    #[test]
+    fn blocks_are_few() {
+        let samples = 0..1 << 40;
+        let wanted = wants(&samples);
+        let tiles = wanted.len();
+        let mut work = Work::new(REGION, samples, vec![0; REGION.area()], wanted, 32);
+        work.pace = Pace::fixed(u64::MAX);
+        let blocks = std::iter::from_fn(|| work.next_block()).count();
+        assert!(blocks <= 5 * tiles / 2, "{blocks} blocks of {tiles} tiles");
     }
 }
