@@ -60,7 +60,9 @@
 //!    and a number is a function of the same address.
 //! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
 //!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`) or to one that is drawn (`choice`, by a `light_tree`), the
-//!    interruption test (`interruption`), the next direction (`scatter`).
+//!    interruption test (`interruption`), the next direction (`scatter`). By the rule `efficiency` a pilot on the CPU
+//!    twin ([`cpu::pilot`]) says before the first sample what the rays that leave each body are worth; a path may then
+//!    split (`efficiency`, `branch`), and its branches are traced one after the other as one sample.
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
 //!    on how the work was split. Variances are those of samples, or of the means of randomisations.

@@ -379,3 +379,46 @@ fn errors_of_the_command_line_name_the_flag() {
     let expected = "--width 0: `image.width` must be 1 to 32768, not 0";
     assert_eq!(page, expected);
 }
+
+/// By rho^2 / t, by the rule that it holds for, and by the hits that are tested.
+#[test]
+fn thresholds_that_leave_the_variance_without_a_bound_are_told_with_numbers() {
+    let rule = "[interruption]\nrule = \"survival\"\n[image]";
+    let told = |change: &dyn Fn(String) -> String| {
+        let scene = parse(&change(GOOD.replace("[image]", rule))).unwrap();
+        (scene.unbounded(), scene.unbounded_lines())
+    };
+    let low = |text: String| text.replace("survival = 0.75", "survival = 0.5");
+    let (found, lines) = told(&low);
+    let [one] = found.as_slice() else {
+        panic!("{found:?}");
+    };
+    assert_eq!((one.survival, one.albedo, one.tests), (0.5, 0.75, 4));
+    assert!((one.growth() - 1.125).abs() < 1e-12);
+    for words in [
+        "bad.toml:15:1: `white`",
+        "0.5625",
+        "1.1250",
+        "4 hits by up to 1.602e0",
+        "set `survival` above 0.5625",
+    ] {
+        assert!(lines[0].contains(words), "{words}: {lines:?}");
+    }
+    let none: [&dyn Fn(String) -> String; 4] = [
+        &|text| text,
+        &|text| {
+            low(text).replace(
+                "rule = \"survival\"",
+                "rule = \"survival\"\nweight = \"literal\"",
+            )
+        },
+        &|text| low(text).replace("rule = \"survival\"", "rule = \"survival\"\nstart = 8"),
+        &|text| low(text).replace("rule = \"survival\"", "rule = \"albedo\""),
+    ];
+    for change in none {
+        assert!(told(change).0.is_empty());
+    }
+    // At the square itself every hit adds as much as the one before.
+    let (equal, _) = told(&|text| text.replace("survival = 0.75", "survival = 0.5625"));
+    assert_eq!(equal[0].growth(), 1.0);
+}

@@ -162,7 +162,7 @@ fn trace_place<T: Traversal>(tracer: &Tracer<T>, pixel: [u32; 2], first: u64) ->
 fn pixel_of(image: [u32; 2], place: u32) -> [u32; 2] {
     let share = u64::from(place.reverse_bits());
     let area = u64::from(image[0]) * u64::from(image[1]);
-    let index = share * area >> 32;
+    let index = (share * area) >> 32;
     let width = u64::from(image[0]);
     [(index % width) as u32, (index / width) as u32]
 }
