@@ -54,7 +54,8 @@
 //!    key with a dimension (vertex, slot) into four numbers. There is no other state: crops, sample
 //!    ranges and splits draw the same numbers.
 //! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
-//!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`), the
+//!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`, with
+//!    `cap` for projected solid angle; `rectangle` for boxes) and to the `background` where asked for, the
 //!    interruption test (`interruption`), the next direction (`scatter`).
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
@@ -68,7 +69,7 @@
 //!
 //! - **A knob**: a row in `knobs/table.rs`, a field in [`knobs::Settings`].
 //! - **A light sampler**: a name in [`knobs::LightSampler`], its sample and inverse density in
-//!   `shaders/light.wgsl` and `src/cpu/light.rs`, its chi-square case in the tests. The naga
+//!   `shaders/light.wgsl` and `src/cpu/light.rs` (or a library of its own, as `cap`), its chi-square case in the tests. The naga
 //!   tests and the cross of the closed forms fail until all agree.
 //! - **A scattering**: a name in [`knobs::Scatter`]; sample, evaluate and density in `scatter` of both
 //!   twins; fields in [`pack::Material`].
