@@ -59,10 +59,11 @@
 //!    samples of a pixel are cut into randomisations, each a well spread point set that is made random anew,
 //!    and a number is a function of the same address.
 //! 2. `trace.wgsl` starts a path at the pixel (`camera.wgsl`) and takes it from hit to hit: nearest
-//!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`) or to one that is drawn (`choice`, by a `light_tree`), the
-//!    interruption test (`interruption`), the next direction (`scatter`). By the rule `efficiency` a pilot on the CPU
-//!    twin ([`cpu::pilot`]) says before the first sample what the rays that leave each body are worth; a path may then
-//!    split (`efficiency`, `branch`), and its branches are traced one after the other as one sample.
+//!    hit (`loops`, `bvh`, or what `shader/bake` prints beside `baked`, with `sphere` and `box`; `scene` says what it is), emission, one shadow ray to each lamp (`light`, with
+//!    `cap` for projected solid angle; `rectangle` for boxes) or to one that is drawn (`choice`, by a `light_tree`), and to
+//!    the `background` where asked for, the interruption test (`interruption`), the next direction (`scatter`). By the rule
+//!    `efficiency` a pilot on the CPU twin ([`cpu::pilot`]) says before the first sample what the rays that leave each body
+//!    are worth; a path may then split (`efficiency`, `branch`), and its branches are traced one after the other as one sample.
 //! 3. A lane adds its samples in f32 over runs that end at multiples of [`pack::RUN_LENGTH`] and writes a
 //!    [`pack::Tally`]; [`film::Film`] adds tallies in f64, run by run. So the picture does not depend
 //!    on how the work was split. Variances are those of samples, or of the means of randomisations.
@@ -75,7 +76,7 @@
 //!
 //! - **A knob**: a row in `knobs/table.rs`, a field in [`knobs::Settings`].
 //! - **A light sampler**: a name in [`knobs::LightSampler`], its sample and inverse density in
-//!   `shaders/light.wgsl` and `src/cpu/light.rs`, its chi-square case in the tests. The naga
+//!   `shaders/light.wgsl` and `src/cpu/light.rs` (or a library of its own, as `cap`), its chi-square case in the tests. The naga
 //!   tests and the cross of the closed forms fail until all agree.
 //! - **A sequence of numbers**: a name in [`knobs::Sequence`], a branch of `sequence_bits` in
 //!   `shaders/sequence.wgsl` and `src/cpu/sequence.rs`; its strata in `tests/samplers/sequence.rs`. Whatever draws

@@ -22,8 +22,8 @@ pub struct ProjectedCap {
     pub cubic: [f32; 4],
 }
 
-const GAUSS_LOWER: Vec3 = Vec3::new(0.033_765_243, 0.169_395_31, 0.380_690_4);
-const GAUSS_UPPER: Vec3 = Vec3::new(0.966_234_74, 0.830_604_67, 0.619_309_6);
+const GAUSS_LOWER: Vec3 = Vec3::new(0.033_765_24, 0.169_395_31, 0.380_690_4);
+const GAUSS_UPPER: Vec3 = Vec3::new(0.966_234_74, 0.830_604_7, 0.619_309_6);
 const GAUSS_SHARES: Vec3 = Vec3::new(0.085_662_246, 0.180_380_79, 0.233_956_96);
 
 fn lune_rim(cap: &ProjectedCap, v: f32) -> f32 {

@@ -214,7 +214,7 @@ fn the_known_figures_come_out() {
 
 /// The same where the lamp is what must be seen.
 const TABLE_BY_OBJECT: [(f64, [f64; 3]); 2] =
-    [(0.17, [0.234, 0.318, 0.807]), (0.5, [0.234, 0.218, 0.554])];
+    [(0.17, [0.234, 0.3182, 0.807]), (0.5, [0.234, 0.218, 0.554])];
 
 #[test]
 fn the_known_figures_by_object_come_out() {
