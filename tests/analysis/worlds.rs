@@ -219,6 +219,7 @@ fn record(samples: u64, seed: u64) -> Record {
         knobs: Map::new(),
         kernel: "general".into(),
         pilot: None,
+        denoised: None,
         device: DeviceInfo {
             kind: DeviceKind::Cpu,
             name: String::new(),

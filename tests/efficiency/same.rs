@@ -85,6 +85,7 @@ fn records_tell_the_pilot_and_checkpoints_of_another_are_refused() {
     assert_eq!(pilot.hash, task.pilot().unwrap().hash());
     assert!(pilot.paths > 0 && pilot.rays > pilot.paths);
     let checkpoint = |record| Checkpoint {
+        scouts: None,
         record,
         samples: [0, 40],
         film: Film::new(task.region),
