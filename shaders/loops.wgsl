@@ -30,12 +30,7 @@ fn nearest_hit(ray: Ray) -> Hit {
     return best;
 }
 
-// Whether a box can be in the way: it cannot where it is the lamp itself.
-fn blocking_box(index: u32, target_body: u32) -> bool {
-    return BOX_LAMPS == 0u || SPHERE_COUNT + index + 1u != target_body;
-}
-
-// Whether anything but the body `target_body` stands nearer than `reach`.
+// Whether anything but the body `target_body` stands nearer than `reach`; that is a sphere unless boxes are lamps.
 fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
     var blocked = false;
     for (var i = 0u; i < SPHERE_COUNT; i++) {
@@ -46,11 +41,13 @@ fn occluded(ray: Ray, reach: f32, target_body: u32) -> bool {
     for (var i = 0u; i < BOX_COUNT; i++) {
         let crossing = intersect_box(box_at(i).half_size, ray.origin - box_at(i).center, inverse);
         let distance = first_distance(crossing, ray, SPHERE_COUNT + i + 1u);
-        blocked = blocked || (distance > 0.0 && distance < reach && blocking_box(i, target_body));
+        let other = BOX_LAMPS == 0u || SPHERE_COUNT + i + 1u != target_body;
+        blocked = blocked || (distance > 0.0 && distance < reach && other);
     }
     for (var i = BOX_COUNT; i < BOX_COUNT + ROTATED_BOX_COUNT; i++) {
         let distance = first_distance(rotated_box_crossing(box_at(i), ray), ray, SPHERE_COUNT + i + 1u);
-        blocked = blocked || (distance > 0.0 && distance < reach && blocking_box(i, target_body));
+        let other = BOX_LAMPS == 0u || SPHERE_COUNT + i + 1u != target_body;
+        blocked = blocked || (distance > 0.0 && distance < reach && other);
     }
     return blocked;
 }

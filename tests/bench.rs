@@ -217,9 +217,9 @@ fn an_earlier_builds_shaders_are_measured_in_turns_where_they_fit() {
     for (fault, words) in [
         (
             (
-                "light",
-                "    body: u32,\n",
-                "    lamp: u32,\n    body: u32,\n",
+                "camera",
+                "struct Camera {\n",
+                "struct Camera {\n    extra: vec4<f32>,\n",
             ),
             "laid out otherwise",
         ),
