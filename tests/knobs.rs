@@ -51,7 +51,6 @@ const PRESETS: &[(&str, [&str; 4])] = &[
     ("light.weight_radius", ["1.5", "null", "null", "null"]),
     ("light.strategy", ["sample", "sample", "mis", "mis"]),
     ("light.choice", ["all", "all", "all", "all"]),
-    ("light.boxes", ["hit", "hit", "hit", "sample"]),
     ("light.direct", ["lambert", "lambert", "bsdf", "bsdf"]),
     ("scatter.diffuse", ["cosine", "cosine", "cosine", "cosine"]),
     ("scatter.bound", ["clamp", "clamp", "truncate", "truncate"]),
@@ -227,7 +226,10 @@ fn lambert_leaves_boxes_and_background_alone() {
     let scene = set(&["light.direct=lambert"]);
     assert_eq!(scene.settings.light.boxes, LightSource::Hit);
     assert_eq!(scene.knobs["light.boxes"], "hit");
-    assert_eq!(set(&[]).settings.light.boxes, LightSource::Sample);
+    assert_eq!(
+        set(&["light.boxes=sample"]).settings.light.boxes,
+        LightSource::Sample
+    );
     for path in ["light.boxes", "light.background"] {
         set(&["light.direct=lambert", &format!("{path}=hit")]);
         let message = refused(&["light.direct=lambert", &format!("{path}=sample")]);

@@ -204,7 +204,8 @@ fn every_kernel_is_valid_with_every_strategy() {
             let resolved = resolve(&module, &info, &constants(&module, &strategy));
             let resolved = resolved.unwrap_or_else(|e| panic!("{kernel} {strategy:?}: {e}"));
             assert!(!mentions_overrides(&resolved), "{kernel} keeps overrides");
-            assert!(mentions_overrides(&module));
+            // A filter is the same for every strategy.
+            assert_eq!(mentions_overrides(&module), kernel != Kernel::Denoise);
         }
     }
 }
@@ -324,10 +325,16 @@ fn enums_have_the_same_numbers_on_both_sides() {
         vec![("RUN_LENGTH".to_string(), RUN_LENGTH)],
     ];
     let mut wanted: BTreeMap<_, _> = lists.into_iter().flatten().collect();
-    assert_eq!(shader_constants(), wanted);
+    let printed = || {
+        let mut all = shader_constants();
+        // The light tree's own.
+        all.retain(|name, _| !["LEAF", "LEAST_SHARE", "WHOLE_SHARE"].contains(&name.as_str()));
+        all
+    };
+    assert_eq!(printed(), wanted);
     // One number wrong would show.
     wanted.insert("LIGHT_SAMPLER_CONE".into(), 2);
-    assert_ne!(shader_constants(), wanted);
+    assert_ne!(printed(), wanted);
 }
 
 /// Eight storage buffers are what every WebGPU device has for a stage, and one uniform buffer is what

@@ -424,7 +424,7 @@ fn randomisations_that_cannot_be_are_refused() {
         error.contains("begin inside a randomisation") && error.contains("--sample-range 32..112"),
         "{error}"
     );
-    let few = ["render.sequence=sobol", "render.samples=31"].map(|text| Assignment::parse(text));
+    let few = ["render.sequence=sobol", "render.samples=31"].map(Assignment::parse);
     let few: Vec<_> = few.into_iter().collect::<Result<_, _>>().unwrap();
     let error = Scene::parse("room.toml", ROOM, &few).unwrap_err();
     let error = error.to_string();

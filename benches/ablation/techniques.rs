@@ -94,8 +94,8 @@ pub const TECHNIQUES: &[Technique] = &[
         instead: "a loop over samples, and in it one over the vertices of a path",
         expected: [1.35, 1.35],
         edits: &[Edit::Text(
-            "    for (var step = 0u; step < job.steps; step++) {\n        step_path(&path);\n",
-            "    for (var step = 0u; step < job.steps; step++) {\n        while path.alive {\n            step_path(&path);\n        }\n",
+            "        if INTERRUPTION_RULE != INTERRUPTION_RULE_EFFICIENCY || path.alive {\n            step_path(&path);\n        }\n",
+            "        while path.alive {\n            step_path(&path);\n        }\n",
         )],
         ..PLAIN
     },

@@ -175,7 +175,7 @@ pub static KNOBS: &[Knob] = &[
         "which rays find the lamps: shadow rays, hits of scattered rays, or both by the power heuristic"),
     knob("light.choice", Name(LightChoice::NAMES), "", presets(["all", "all", "all", "all"]),
         "which lamps a hit sends shadow rays to: every one, or one that is drawn: evenly, by power, or by a tree that knows power, distance and horizon"),
-    knob("light.boxes", Name(LightSource::NAMES), "", presets(["hit", "hit", "hit", "sample"]),
+    knob("light.boxes", Name(LightSource::NAMES), "", Default(text("hit")),
         "whether shadow rays look for boxes that shine, at a place of their faces even by solid angle whatever the sampler; Lambert direct light leaves them to what the camera sees"),
     knob("light.background", Name(LightSource::NAMES), "", Default(text("hit")),
         "whether a shadow ray looks for the background, in a direction by the cosine to the lit surface's normal; Lambert direct light leaves it to what the camera sees"),
