@@ -116,6 +116,7 @@ const CASES: &[Case] = &[
     ("fov = 45.0", "aperture = -0.1", "6:12", &["`camera.aperture` must be >= 0, not -0.1"]),
     ("fov = 45.0", "focus = 0", "6:9", &["`camera.focus` must be > 0, not 0"]),
     ("fov = 45.0", "focus = \"near\"", "6:9", &["number"]),
+    ("fov = 45.0", "focus = 2", "6:9", &["`camera.focus` is set, and `camera.aperture` is not"]),
     ("fov = 45.0", "fov = 0", "6:7", &["`camera.fov` must be > 0 and < 180, not 0"]),
     ("fov = 45.0", "fov = 180.0", "6:7", &["> 0 and < 180"]),
     ("fov = 45.0", "fov = 179.999999999999", "6:7", &["> 0 and < 180"]),
@@ -357,7 +358,6 @@ fn what_is_suspect_is_warned_of_with_its_place() {
         (change("survival = 0.75", "roughness = 0.1"), 13, "`white` is diffuse, and `roughness` is for rough surfaces alone"),
         (change("survival = 0.75", "scatter = \"rough\"\nspread = 0.1"), 13, "`spread` is for directional surfaces alone"),
         (change("survival = 0.75", "scatter = \"mirror\"\nindex = 2"), 13, "`index` is for glass surfaces alone"),
-        (change("fov = 45.0", "focus = 2"), 2, "a `focus` and no `aperture`"),
         (change("survival = 0.75", "scatter = \"glass\"") + room, 18, "stands inside glass, `boxes.1`"),
     ];
     for (text, line, words) in cases {

@@ -224,6 +224,19 @@ impl Builder<'_, '_, '_> {
         }
     }
 
+    /// A distance in focus says nothing of a pinhole: one that nobody gave an aperture was meant to be a lens.
+    fn lens(&mut self) {
+        let focus = self.single("camera.focus").optional().is_some();
+        if focus && self.draft.singles.by_path("camera.aperture").is_none() {
+            let origin = self.origin("camera.focus");
+            self.faults.add(origin, || {
+                let message = "`camera.focus` is set, and `camera.aperture` is not".into();
+                let note = "a pinhole is in focus everywhere; set `camera.aperture` to the radius of the lens, or to 0";
+                (message, Some(note.into()))
+            });
+        }
+    }
+
     /// Whether the kernel that was asked for takes the bodies.
     fn kernel(&mut self, settings: &Settings, bodies: usize) {
         if settings.render.kernel == RenderKernel::Baked && bodies > MOST_BAKED {
@@ -249,6 +262,7 @@ impl Builder<'_, '_, '_> {
                 }
             }
         }
+        self.lens();
         let camera = Camera {
             position: self.single("camera.position").triple(),
             look_at: self.single("camera.look_at").triple(),

@@ -263,7 +263,7 @@ impl<'a> Lint<'a> {
         }
     }
 
-    /// Knobs that another scattering than the material's has, and a focus without a lens.
+    /// Knobs that another scattering than the material's has.
     fn idle_knobs(&mut self) {
         let idle = |material: &Material| -> Option<(&'static str, Scatter)> {
             let knobs = [
@@ -285,12 +285,6 @@ impl<'a> Lint<'a> {
             let message = format!("`{name}` is {own}, and `{key}` is for {scatter} surfaces alone");
             let table = format!("materials.{}", material.name);
             self.warn(table, message, Some("it changes nothing here"));
-        }
-        let camera = &self.scene.camera;
-        if camera.aperture == 0.0 && camera.focus.is_some() {
-            let message = "the camera has a `focus` and no `aperture`".into();
-            let note = "a pinhole is in focus everywhere; set `camera.aperture`";
-            self.warn("camera", message, Some(note));
         }
     }
 
