@@ -157,7 +157,7 @@ impl Task<'_> {
             return Ok(());
         }
         Err(Error::Usage(format!(
-            "--target-error spends samples where the error is, and those must be independent: render.sequence is {}; add --even, or set render.sequence=independent",
+            "--adaptive samples must be independent: render.sequence is {}; leave out --adaptive, or set render.sequence=independent",
             render.sequence
         )))
     }

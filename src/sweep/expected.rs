@@ -225,6 +225,8 @@ fn samples_only(knob: &Knob) -> bool {
     let others = [
         "render.preset",
         "render.clamp",
+        "render.sequence",
+        "render.randomisations",
         "image.exposure",
         "image.encoding",
     ];

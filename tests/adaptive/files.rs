@@ -40,6 +40,7 @@ fn stage() -> TempDir {
 const RENDER: &[&str] = &[
     "render",
     "s.toml",
+    "--adaptive",
     "--device",
     "cpu",
     "--width",
@@ -56,6 +57,12 @@ const RENDER: &[&str] = &[
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [RENDER, more].concat()
+}
+
+/// The same without the wish for adaptive samples.
+fn even<'a>(words: &[&'a str]) -> Vec<&'a str> {
+    let words = words.iter().copied();
+    words.filter(|word| *word != "--adaptive").collect()
 }
 
 fn read(folder: &Path, name: &str) -> Picture {
@@ -111,14 +118,14 @@ fn the_picture_says_how_it_was_sampled() {
 fn even_sampling_is_a_choice() {
     let stage = stage();
     let folder = stage.path();
-    ran(folder, &with(&["-o", "even.exr", "--even"]));
+    ran(folder, &even(&with(&["-o", "even.exr"])));
     let even = read(folder, "even.exr");
     assert!(even.record.adaptive.is_none());
     assert!(even.samples.iter().all(|count| *count == even.samples[0]));
     ran(folder, &with(&["-o", "a.exr", "--seed", "7"]));
     let told = ran(folder, &["diff", "even.exr", "a.exr", "--margin", "0.05"]);
     assert!(told.contains(" to ") && told.contains("samples"), "{told}");
-    let told = refused(folder, &["render", "s.toml", "--even"], 2);
+    let told = refused(folder, &["render", "s.toml", "--adaptive"], 2);
     assert!(told.contains("--target-error"), "{told}");
 }
 
@@ -161,7 +168,7 @@ fn no_checkpoint_of_the_other_kind_is_gone_on_from() {
     ran(folder, &[&RENDER[..RENDER.len() - 2], &long].concat());
     let told = refused(
         folder,
-        &[&RENDER[..RENDER.len() - 2], &long, &["--resume", "--even"]].concat(),
+        &even(&[&RENDER[..RENDER.len() - 2], &long, &["--resume"]].concat()),
         65,
     );
     assert!(
