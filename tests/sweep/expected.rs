@@ -127,3 +127,18 @@ fn seeds_share_a_reference_of_another_seed() {
     assert_eq!((all.len(), all[0].samples), (1, 40));
     assert_eq!(all[0].scene().settings.render.seed, 40 + (1 << 63));
 }
+
+/// How numbers fill their space changes no expected picture, and the reference has room for few samples.
+#[test]
+fn sequences_share_a_reference() {
+    let axes = [
+        "render.sequence=independent,sobol,stratified",
+        "render.samples=64",
+    ];
+    assert_eq!(references(base(SCENE, &[]), &axes).len(), 1);
+    let axes = ["render.randomisations=2,8", "render.samples=64"];
+    assert_eq!(
+        references(base(SCENE, &["render.sequence=sobol"]), &axes).len(),
+        1
+    );
+}
