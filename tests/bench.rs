@@ -196,10 +196,9 @@ fn an_earlier_builds_shaders_are_measured_in_turns_where_they_fit() {
     let report = json(&tiny(folder.path(), &against));
     let rays = |kind, shaders| row(&report, kind, shaders)["rays_per_sample"].as_f64();
     assert!(rays("gpu", "then").unwrap() < 0.7 * rays("gpu", "now").unwrap());
-    assert_eq!(
-        rays("cpu", "now").unwrap().floor(),
-        rays("gpu", "now").unwrap().floor()
-    );
+    // The clock decides how many samples each device takes: of 256 paths and more, means a tenth apart.
+    let [twin, gpu] = ["cpu", "gpu"].map(|kind| rays(kind, "now").unwrap());
+    assert!((twin - gpu).abs() < 0.1 * twin, "{twin} {gpu}");
     let twin = row(&report, "cpu", "then");
     assert_eq!(
         (&twin["status"], rays("cpu", "then")),
