@@ -97,8 +97,8 @@ fn shuffled_tile(index: u32, seed: u32) -> u32 {
 
 // Sobol's first two dimensions (Sobol 1967), of which each aligned 2^k samples have one point in every
 // box of area 2^-k whose sides are powers of two; so have they after Owen's scrambling (1995) of index and values.
-fn sobol_bits(index: vec2<u32>, shuffle: vec4<u32>, scramble: vec4<u32>) -> vec4<u32> {
-    let order = owen_scramble(reverseBits(index).xyxy, shuffle).xy;
+fn sobol_bits(index: vec2<u32>, shuffle: vec2<u32>, scramble: vec4<u32>) -> vec4<u32> {
+    let order = owen_scramble(reverseBits(index).xyxy, shuffle.xyxy).xy;
     let second = second_dimension(order);
     return owen_scramble(vec4<u32>(order.x, second.x, order.y, second.y), scramble);
 }
@@ -136,12 +136,15 @@ fn sequence_bits(key: vec4<u32>, vertex: u32, slot: u32) -> vec4<u32> {
     if SEQUENCE == SEQUENCE_STRATIFIED {
         return stratified_bits(key.w, seed);
     }
-    let shuffle = pcg4d(seed);
+    // A second hash for the second pair alone: what draws two numbers does without.
+    let more = pcg4d(seed);
+    let shuffle = vec2<u32>(seed.x, more.x);
+    let scramble = vec4<u32>(seed.yz, more.yz);
     if SEQUENCE == SEQUENCE_SOBOL {
-        return sobol_bits(vec2<u32>(key.w), shuffle, seed);
+        return sobol_bits(vec2<u32>(key.w), shuffle, scramble);
     }
-    let index = vec2<u32>(shuffled_tile(key.w, shuffle.z), shuffled_tile(key.w, shuffle.w));
-    return sobol_bits(index, shuffle, seed);
+    let index = vec2<u32>(shuffled_tile(key.w, seed.w), shuffled_tile(key.w, more.w));
+    return sobol_bits(index, shuffle, scramble);
 }
 
 // Four numbers in [0, 1).

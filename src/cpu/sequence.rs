@@ -104,7 +104,7 @@ fn shuffled_tile(strategy: &Strategy, index: u32, seed: u32) -> u32 {
 }
 
 /// Sobol's first two dimensions, twice, scrambled.
-fn sobol_bits(index: [u32; 2], shuffle: [u32; 4], scramble: [u32; 4]) -> [u32; 4] {
+fn sobol_bits(index: [u32; 2], shuffle: [u32; 2], scramble: [u32; 4]) -> [u32; 4] {
     let order: [u32; 2] = from_fn(|pair| owen_scramble(index[pair].reverse_bits(), shuffle[pair]));
     let [a, b] = order;
     let values = [a, second_dimension(a), b, second_dimension(b)];
@@ -157,14 +157,15 @@ fn set_bits(strategy: &Strategy, key: [u32; 4], vertex: u32, slot: u32) -> [u32;
     if strategy.sequence == Sequence::Stratified {
         return stratified_bits(strategy.randomisation_bits, index, seed);
     }
-    let shuffle = pcg4d(seed);
+    let more = pcg4d(seed);
     let index = match strategy.sequence {
         Sequence::BlueNoise => {
-            [shuffle[2], shuffle[3]].map(|seed| shuffled_tile(strategy, index, seed))
+            [seed[3], more[3]].map(|seed| shuffled_tile(strategy, index, seed))
         }
         _ => [index; 2],
     };
-    sobol_bits(index, shuffle, seed)
+    let scramble = [seed[1], seed[2], more[1], more[2]];
+    sobol_bits(index, [seed[0], more[0]], scramble)
 }
 
 /// Four numbers in [0, 1).
