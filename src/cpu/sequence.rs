@@ -159,9 +159,7 @@ fn set_bits(strategy: &Strategy, key: [u32; 4], vertex: u32, slot: u32) -> [u32;
     }
     let more = pcg4d(seed);
     let index = match strategy.sequence {
-        Sequence::BlueNoise => {
-            [seed[3], more[3]].map(|seed| shuffled_tile(strategy, index, seed))
-        }
+        Sequence::BlueNoise => [seed[3], more[3]].map(|seed| shuffled_tile(strategy, index, seed)),
         _ => [index; 2],
     };
     let scramble = [seed[1], seed[2], more[1], more[2]];
