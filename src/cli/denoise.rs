@@ -100,6 +100,10 @@ impl Session<'_> {
             return Ok(false);
         };
         name_outputs(&mut smoothed.record, &targets);
+        if picture.as_ref().is_some_and(denoise::is_faint) {
+            let text = "warning: the light is so faint that 32 bits hold little or nothing of its variance, by which the denoiser goes: noise is left in; give the lamps more emission";
+            remark(text, self.output);
+        }
         record.outputs.extend(smoothed.record.outputs.clone());
         tell_of_denoising(&smoothed.record, self.output);
         if self.run.no_times {
