@@ -7,6 +7,7 @@ use super::{Output, print};
 use crate::error::{Error, Result};
 use crate::figures::{self, About, Data, Effort, Figure, NUMBERS, files};
 use crate::reproduce::{Order, Outcome, reproduce};
+use crate::wording::named;
 use clap::Args;
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -148,7 +149,7 @@ impl Command {
         remark(
             &format!(
                 "{}: {} runs made, {} were there; {:.0} s in all",
-                page.display(),
+                named(&page),
                 outcome.made,
                 outcome.found,
                 started.elapsed().as_secs_f64()

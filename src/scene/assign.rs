@@ -133,11 +133,31 @@ impl Over<'_> {
             Some(number) => Ok(&mut list[*number]),
             None => {
                 let names = list.iter().map(|group| group.name.as_str());
-                let note = nearest(item, names).map(|near| format!("did you mean `{near}`?"));
+                let note = match nearest(item, names.clone()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => there_are(names),
+                };
                 let message = format!("the scene has no material `{}`", short(item));
-                Err((message, note))
+                Err((message, Some(note)))
             }
         }
+    }
+}
+
+/// What a path may name instead of a material that is not there.
+fn there_are<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    const MOST: usize = 8;
+    let names: Vec<_> = names.collect();
+    let shown = names
+        .iter()
+        .take(MOST)
+        .map(|name| format!("`{}`", short(name)));
+    let shown = shown.collect::<Vec<_>>().join(", ");
+    let remedy = "write new ones into the scene file";
+    match names.len() {
+        0 => format!("it has none: {remedy}"),
+        count if count > MOST => format!("it has {shown} and {} more; {remedy}", count - MOST),
+        _ => format!("it has {shown}; {remedy}"),
     }
 }
 

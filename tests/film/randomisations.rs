@@ -222,7 +222,8 @@ fn parts_make_the_whole_with_its_error() {
         {
             assert!((found - wanted).abs() < 1e-4 * wanted, "{found} {wanted}");
         }
-        let [found, wanted] = [&sum, &whole].map(|picture| picture.record.standard_error[1]);
+        let [found, wanted] =
+            [&sum, &whole].map(|picture| picture.record.standard_error.unwrap()[1]);
         assert!((found - wanted).abs() < 1e-4 * wanted, "{found} {wanted}");
         assert_eq!(
             sum.record.randomisation_means,
