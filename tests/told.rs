@@ -334,6 +334,38 @@ fn what_cannot_be_meant_is_refused_with_a_remedy() {
     assert_eq!(left, 1, "nothing but the scene is there");
 }
 
+/// Where the time goes before the first block there are no sums; where some pixels have samples, they are kept.
+#[test]
+fn time_that_is_up_before_a_picture_leaves_what_has_been_traced() {
+    let folder = tempfile::tempdir().unwrap();
+    let render = |time: &str| {
+        let arguments = [
+            "render",
+            "s.toml",
+            "-o",
+            "a.exr",
+            "--checkpoint",
+            "sums",
+            "--device",
+            "cpu",
+        ];
+        lampray(
+            folder.path(),
+            &[],
+            &[&arguments[..], &["--time", time]].concat(),
+        )
+    };
+    let (code, _, words) = render("1e-9");
+    assert_eq!(code, 75, "{words}");
+    assert!(
+        words.contains("nothing is traced yet") && words.contains("no sums to keep"),
+        "{words}"
+    );
+    assert!(!words.contains("--resume"), "{words}");
+    let left = std::fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(left, 1, "nothing but the scene is there");
+}
+
 #[test]
 fn a_doctor_without_a_device_answers_in_json() {
     let folder = tempfile::tempdir().unwrap();
