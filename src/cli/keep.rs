@@ -92,7 +92,7 @@ impl KeepOptions {
             if self.resume {
                 note(&format!(
                     "lampray: no checkpoint at {}: beginning anew",
-                    named(&path)
+                    named(path)
                 ));
             }
             return Ok(Some((keeper, Rendering::new(task))));

@@ -248,7 +248,7 @@ impl Session<'_> {
         }
         keeper.save(self.task, rendering)?;
         if let Some(path) = keeper.kept() {
-            let path = named(&path);
+            let path = named(path);
             remark(&format!("--resume goes on from {path}"), self.output);
         }
         Ok(())

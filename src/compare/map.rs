@@ -159,7 +159,7 @@ pub fn prepare(path: &Path) -> Result<Place> {
     if Format::of(path).is_none() {
         return Err(Error::Usage(format!(
             "--map {}: must end in .png or .exr",
-            named(&path)
+            named(path)
         )));
     }
     Place::prepare(path)

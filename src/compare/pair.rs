@@ -33,7 +33,7 @@ impl Pair {
                     "{} x {} pixels, but {} has {} x {}: only pictures of one size can be compared",
                     second.0,
                     second.1,
-                    named(&reference),
+                    named(reference),
                     first.0,
                     first.1
                 ),

@@ -135,7 +135,7 @@ impl Data {
         if let (true, [_, ..]) = (made.0.is_empty(), old.as_slice()) {
             return Err(Error::Usage(format!(
                 "{}: another version of lampray rendered this; lampray figures renders it again",
-                named(&folder)
+                named(folder)
             )));
         }
         if made.0.is_empty() {

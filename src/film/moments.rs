@@ -336,7 +336,7 @@ pub(super) struct PictureMean {
     /// Pixels with fewer than two independent estimates: their noise is not known.
     unknown: u64,
     /// Variance of the mean of the picture, where the pixels' own do not tell it.
-    told: Option<Option<[f64; 3]>>,
+    told: Option<[f64; 3]>,
 }
 
 impl PictureMean {
@@ -356,28 +356,24 @@ impl PictureMean {
 
     /// The pixels share point sets: these are the picture's means by randomisation.
     pub(super) fn told_by(&mut self, means: &[[f64; 3]], length: u64, samples: u64) {
-        let known = means.len() >= 2;
-        self.told = Some(known.then(|| variance_of_mean(means, length, samples)));
+        if means.len() < 2 {
+            self.unknown = self.pixels;
+        }
+        self.told = Some(variance_of_mean(means, length, samples));
     }
 
     /// The standard error of the mean, where it is known of every pixel.
     pub(super) fn standard_error(&self) -> Option<[f64; 3]> {
-        let known = match self.told {
-            Some(told) => told.is_some(),
-            None => self.unknown == 0,
-        };
-        known.then(|| self.spread())
+        (self.unknown == 0).then(|| self.spread())
     }
 
     /// The same of the pixels of which it is known.
     fn spread(&self) -> [f64; 3] {
-        match self.told {
-            Some(told) => told.unwrap_or_default().map(f64::sqrt),
-            None => {
-                let pixels = self.pixels.max(1) as f64;
-                self.variances.map(|sum| sum.sqrt() / pixels)
-            }
+        if let Some(told) = self.told {
+            return told.map(f64::sqrt);
         }
+        self.variances
+            .map(|sum| sum.sqrt() / self.pixels.max(1) as f64)
     }
 }
 

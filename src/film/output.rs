@@ -64,7 +64,7 @@ impl Target {
             .find(|target| !seen.insert(target.place.identity()))
         {
             Some(twice) => {
-                let message = format!("output {} is given twice", named(&twice.path()));
+                let message = format!("output {} is given twice", named(twice.path()));
                 Err(Error::Usage(message))
             }
             None => Ok(targets),
@@ -106,7 +106,7 @@ impl Target {
 }
 
 fn unknown_format(path: &Path) -> Error {
-    let path = named(&path);
+    let path = named(path);
     Error::Usage(format!(
         "output {path} must end in .png or .exr, which are the formats there are"
     ))

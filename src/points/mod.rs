@@ -347,7 +347,7 @@ impl Sink {
             "png" => Form::Png,
             "svg" => Form::Svg,
             _ => {
-                let path = named(&path);
+                let path = named(path);
                 return Err(Error::Usage(format!(
                     "output {path} must end in .csv, .png or .svg"
                 )));

@@ -135,7 +135,7 @@ impl Over<'_> {
                 let names = list.iter().map(|group| group.name.as_str());
                 let note = match nearest(item, names.clone()) {
                     Some(near) => format!("did you mean `{near}`?"),
-                    None => there_are(names),
+                    None => there_are(names, count),
                 };
                 let message = format!("the scene has no material `{}`", short(item));
                 Err((message, Some(note)))
@@ -144,20 +144,17 @@ impl Over<'_> {
     }
 }
 
-/// What a path may name instead of a material that is not there.
-fn there_are<'n>(names: impl Iterator<Item = &'n str>) -> String {
+/// What a path may name instead of a material that is not there. Of many only the first are looked at: there may be a
+/// hundred thousand such paths.
+fn there_are<'n>(names: impl Iterator<Item = &'n str>, count: usize) -> String {
     const MOST: usize = 8;
-    let names: Vec<_> = names.collect();
-    let shown = names
-        .iter()
-        .take(MOST)
-        .map(|name| format!("`{}`", short(name)));
-    let shown = shown.collect::<Vec<_>>().join(", ");
+    let names = names.take(MOST).map(|name| format!("`{}`", short(name)));
+    let shown = names.collect::<Vec<_>>().join(", ");
     let remedy = "write new ones into the scene file";
-    match names.len() {
+    match count {
         0 => format!("it has none: {remedy}"),
-        count if count > MOST => format!("it has {shown} and {} more; {remedy}", count - MOST),
-        _ => format!("it has {shown}; {remedy}"),
+        ..=MOST => format!("it has {shown}; {remedy}"),
+        _ => format!("it has {shown} and {} more; {remedy}", count - MOST),
     }
 }
 

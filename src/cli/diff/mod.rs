@@ -239,14 +239,14 @@ impl Command {
         {
             return Err(Error::Usage(format!(
                 "--map {}: that is one of the pictures",
-                named(&map)
+                named(map)
             )));
         }
         if self.bless.is_some() && Format::of(reference) != Format::of(test) {
             return Err(Error::Usage(format!(
                 "--bless would make {} a copy of {}, which is of another format",
-                named(&reference),
-                named(&test)
+                named(reference),
+                named(test)
             )));
         }
         Ok(())
@@ -367,7 +367,7 @@ fn bless(reference: &Path, test: &Path, output: Output) -> Result<()> {
         source,
     })?;
     Place::prepare(reference)?.write(|sink| sink.write_all(&bytes))?;
-    let (reference, test) = (named(&reference), named(&test));
+    let (reference, test) = (named(reference), named(test));
     remark(&format!("{reference} is now a copy of {test}"), output);
     Ok(())
 }

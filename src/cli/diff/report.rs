@@ -78,7 +78,7 @@ fn describe(text: &mut String, name: &str, path: &Path, image: &Described) {
     let _ = write!(
         text,
         "{name}  {}: {}, {} x {}",
-        named(&path),
+        named(path),
         image.format,
         image.width,
         image.height

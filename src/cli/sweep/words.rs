@@ -117,6 +117,6 @@ pub(super) fn ended(folder: &Path, runs: Summary, references: &ReferenceSummary)
         (0, 0) => String::new(),
         (made, found) => format!("; references: {made} made, {}", were(found)),
     };
-    let (folder, made, skipped) = (named(&folder), counted(made, "run"), were(skipped));
+    let (folder, made, skipped) = (named(folder), counted(made, "run"), were(skipped));
     format!("{folder}: {made} made{state}, {skipped}, {failed} failed{own}")
 }
