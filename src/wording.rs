@@ -18,6 +18,11 @@ pub(crate) fn counted_as<N: Display + PartialEq + From<u8>>(
     format!("{count} {word}")
 }
 
+/// 1 was there, 2 were there.
+pub(crate) fn were_there(count: usize) -> String {
+    counted_as(count, "was there", "were there")
+}
+
 /// A number with its sign and so many decimals: +0.14, -0.02; what rounds to zero has no sign.
 pub(crate) fn signed(value: f64, decimals: usize) -> String {
     unsigned_zero(format!("{value:+.decimals$}"))

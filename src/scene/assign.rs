@@ -153,7 +153,7 @@ fn there_are<'n>(names: impl Iterator<Item = &'n str>, count: usize) -> String {
     let remedy = "write new ones into the scene file";
     match count {
         0 => format!("it has none: {remedy}"),
-        ..=MOST => format!("it has {shown}; {remedy}"),
+        1..=MOST => format!("it has {shown}; {remedy}"),
         _ => format!("it has {shown} and {} more; {remedy}", count - MOST),
     }
 }

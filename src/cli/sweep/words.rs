@@ -3,7 +3,7 @@
 use crate::knobs::short;
 use crate::scene::Unbounded;
 use crate::sweep::{Experiment, Progress, ReferenceSummary, Step, Summary};
-use crate::wording::{counted, counted_as, named};
+use crate::wording::{counted, counted_as, named, were_there};
 use std::path::Path;
 use std::time::Duration;
 
@@ -109,14 +109,10 @@ pub(super) fn ended(folder: &Path, runs: Summary, references: &ReferenceSummary)
         true => " (stopped early)",
         false => "",
     };
-    let were = |count: usize| match count {
-        1 => "1 was there".into(),
-        count => format!("{count} were there"),
-    };
     let own = match (references.made, references.found) {
         (0, 0) => String::new(),
-        (made, found) => format!("; references: {made} made, {}", were(found)),
+        (made, found) => format!("; references: {made} made, {}", were_there(found)),
     };
-    let (folder, made, skipped) = (named(folder), counted(made, "run"), were(skipped));
+    let (folder, made, skipped) = (named(folder), counted(made, "run"), were_there(skipped));
     format!("{folder}: {made} made{state}, {skipped}, {failed} failed{own}")
 }
