@@ -9,7 +9,6 @@ use crate::film::{Aov, Record, Stop, read_record};
 use crate::pack::Rect;
 use crate::render::{scene_hash, whole};
 use crate::scene::{Assignment, Scene};
-use crate::wording::{counted, named};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -41,7 +40,7 @@ impl Command {
         if record.shader_hash != crate::shader::library_hash() && !output.quiet {
             note(&format!(
                 "warning: {} was made by lampray {} with other shaders: the pixels may differ",
-                named(&self.image),
+                self.image.display(),
                 record.version
             ));
         }
@@ -64,14 +63,14 @@ impl Command {
         {
             note(&format!(
                 "warning: {} was stopped before its scouts' samples were all taken: rendering all of them",
-                named(&self.image)
+                self.image.display()
             ));
         }
         if even && record.samples < end - first && !output.quiet {
             note(&format!(
-                "warning: {} was stopped when some of its pixels had {} and others up to {}: rendering {} of each",
-                named(&self.image),
-                counted(record.samples, "sample"),
+                "warning: {} was stopped when some of its pixels had {} samples and others up to {}: rendering {} of each",
+                self.image.display(),
+                record.samples,
                 end - first,
                 end - first
             ));
