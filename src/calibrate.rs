@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::film::{Pixels, Raster, RasterFile};
 use crate::render::{self, Task};
 use crate::scene::Scene;
+use crate::wording::{counted, counted_as};
 use serde::Serialize;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -78,8 +79,8 @@ pub fn calibrate(
     let mut images = Vec::new();
     for mut device in devices {
         say(&format!(
-            "{} pictures on {}",
-            plan.seeds,
+            "{} on {}",
+            counted(plan.seeds, "picture"),
             device.info().name
         ));
         for _ in 0..plan.seeds {
@@ -263,9 +264,9 @@ impl fmt::Display for Calibration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{} seeds at {} samples a pixel on each of: {}",
-            self.seeds,
-            self.samples,
+            "{} at {} on each of: {}",
+            counted(self.seeds, "seed"),
+            counted_as(self.samples, "sample a pixel", "samples a pixel"),
             self.devices.join(", ")
         )?;
         for proposal in &self.proposals {

@@ -1,5 +1,6 @@
 //! Everything that can go wrong, each with its remedy. The command line maps these to exit codes.
 
+use crate::wording::{counted, named};
 use std::io;
 use std::path::PathBuf;
 
@@ -18,10 +19,10 @@ pub enum Error {
     #[error("{0}")]
     Usage(String),
     /// An input that is not there or cannot be opened (exit 66).
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", named(path))]
     Input { path: PathBuf, source: io::Error },
     /// An input that is there but is not what it should be (exit 65).
-    #[error("{}: {reason}", path.display())]
+    #[error("{}: {reason}", named(path))]
     Data { path: PathBuf, reason: String },
     /// A render that this machine has too little memory for (exit 65).
     #[error("{0}")]
@@ -37,13 +38,16 @@ pub enum Error {
     #[error("{0}; the same command may succeed later, or choose another with --device")]
     DeviceLost(String),
     /// An output that cannot be created; said before anything is rendered (exit 73).
-    #[error("cannot create {}: {source}", path.display())]
+    #[error("cannot create {}: {source}", named(path))]
     Create { path: PathBuf, source: io::Error },
     /// An output that broke off; the old file, if any, is untouched (exit 74).
-    #[error("cannot write {}: {source}; the file that was there before, if any, is untouched", path.display())]
+    #[error(
+        "cannot write {}: {source}; the file that was there before, if any, is untouched",
+        named(path)
+    )]
     Write { path: PathBuf, source: io::Error },
     /// An output that broke off and is no file: a device, a pipe or standard output (exit 74).
-    #[error("cannot write to {}: {source}", path.display())]
+    #[error("cannot write to {}: {source}", named(path))]
     Stream { path: PathBuf, source: io::Error },
     /// Runs of a sweep that failed; the ledger holds each with its reason (exit 75:
     /// the same command tries them again).
@@ -57,12 +61,4 @@ pub enum Error {
         "internal error: {0}. This is a fault of lampray: please report it with the command and the scene"
     )]
     Internal(String),
-}
-
-/// 1 run, 2 runs.
-pub(crate) fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        count => format!("{count} {what}s"),
-    }
 }

@@ -47,6 +47,7 @@
 //! | [`mod@bench`] | how fast devices trace: scenes by primitive count, paired ratios; renders, and keeps no picture |
 //! | [`report`] | one page of HTML that shows a sweep's numbers and pictures |
 //! | `panics` | panics of other people's code, caught where they are called |
+//! | `wording` | plurals, signs and names in what is told to people |
 //! | [`place`] | files that are whole or not there |
 //! | [`cache`] | files that may vanish: verdicts of the doctor, compiled pipelines |
 //! | [`cli`] | one file a command, each a thin face over the library |
@@ -147,5 +148,7 @@ pub mod shader;
 pub mod sweep;
 #[forbid(unsafe_code)]
 pub mod theory;
+#[forbid(unsafe_code)]
+mod wording;
 
 pub use error::{Error, Result};

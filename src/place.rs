@@ -79,12 +79,7 @@ impl Place {
 
     /// What tells two outputs apart: the folder without links, and the name in it.
     pub fn identity(&self) -> PathBuf {
-        let folder = folder(&self.destination);
-        let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
-        match self.destination.file_name() {
-            Some(name) => folder.join(name),
-            None => folder,
-        }
+        identity(&self.destination)
     }
 
     /// Lets `fill` write the file.
@@ -124,6 +119,24 @@ impl Place {
             None => write_stream(&path, fill).map_err(|source| Error::Stream { path, source }),
         }
     }
+}
+
+fn identity(destination: &Path) -> PathBuf {
+    let folder = folder(destination);
+    let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
+    match destination.file_name() {
+        Some(name) => folder.join(name),
+        None => folder,
+    }
+}
+
+/// Whether what is written to `path` comes out where standard output does; where that is nowhere it does not matter.
+pub fn is_standard_output(path: &Path) -> bool {
+    let leads = |path: &Path| follow(path).map(|destination| identity(&destination));
+    let own = leads(path).ok();
+    own.is_some_and(|own| {
+        own != Path::new("/dev/null") && leads(Path::new("/dev/stdout")).ok() == Some(own)
+    })
 }
 
 /// Puts in place only what is whole and on the disk: also after a power failure a reader sees one of both.

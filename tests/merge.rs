@@ -35,6 +35,26 @@ fn assert_close(a: &[[f32; 3]], b: &[[f32; 3]]) {
     }
 }
 
+/// One sample tells nothing of its noise, two do; so do two randomisations.
+#[test]
+fn an_error_that_is_not_known_is_null() {
+    let json = |picture: &Picture| -> serde_json::Value {
+        serde_json::from_str(&picture.record.to_json()).unwrap()
+    };
+    let parts = [picture(0..1), picture(1..2)];
+    for part in &parts {
+        assert_eq!(part.record.standard_error, None);
+        assert!(json(part)["standard_error"].is_null());
+    }
+    let merged = merge(&write_all(&Folder::new(), &parts), false).unwrap();
+    let whole = picture(0..2).record.standard_error.unwrap();
+    let errors = merged.record.standard_error.unwrap();
+    for (merged, whole) in errors.into_iter().zip(whole) {
+        assert!(whole > 0.0 && (merged - whole).abs() <= 1e-6 * whole);
+    }
+    assert!(json(&merged)["standard_error"].is_array());
+}
+
 #[test]
 fn halves_make_the_whole() {
     let folder = Folder::new();
@@ -53,8 +73,8 @@ fn halves_make_the_whole() {
             whole.record.mean[channel]
         ));
         assert!(close(
-            merged.record.standard_error[channel],
-            whole.record.standard_error[channel]
+            merged.record.standard_error.unwrap()[channel],
+            whole.record.standard_error.unwrap()[channel]
         ));
     }
     // Merging moves the variance: the plain average of the halves' is not it.

@@ -127,8 +127,11 @@ fn fault(patch: &Patch) -> Option<String> {
         let inside = paths.filter_map(|path| path.strip_prefix(folder)?.strip_suffix(end));
         inside.map(String::from).collect::<BTreeSet<_>>()
     };
-    // Which samples are taken is decided for both devices in one place.
-    let of_both = |file: &FilePatch| file.path.starts_with("src/render/");
+    // Which samples are taken, and what is denoised of them, is decided for both devices in one place.
+    let of_both = |file: &FilePatch| {
+        let rooms = ["src/render/", "src/denoise/"];
+        rooms.iter().any(|room| file.path.starts_with(room))
+    };
     if patch.files.iter().all(of_both) && !patch.files.is_empty() {
         return None;
     }

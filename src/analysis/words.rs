@@ -1,12 +1,13 @@
 //! Numbers and values in sentences.
 
 use crate::report::data::Interval;
+use crate::wording::unsigned_zero;
 use serde_json::Value;
 
 /// As many decimals as three digits take; large numbers keep all before the point.
 pub(crate) fn number(value: f64) -> String {
     let decimals = decimals(value);
-    format!("{value:.decimals$}")
+    unsigned_zero(format!("{value:.decimals$}"))
 }
 
 fn decimals(value: f64) -> usize {

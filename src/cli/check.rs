@@ -2,6 +2,7 @@ use super::options::KnobOptions;
 use super::{Output, Result, note, print};
 use crate::knobs::{Choice, short};
 use crate::scene::{Assignment, Finding, Scene};
+use crate::wording::{counted, counted_as};
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -36,6 +37,9 @@ impl Command {
             for warning in &warnings {
                 note(&warning.text);
             }
+            for line in scene.notes() {
+                note(&format!("note: {line}"));
+            }
         }
         print(&if output.json {
             passed(&scene, &warnings)
@@ -68,6 +72,7 @@ fn failed(scene: &Path, error: &crate::Error, findings: &[Finding]) -> String {
         "ok": false,
         "errors": errors,
         "warnings": [],
+        "notes": [],
     });
     format!("{answer:#}\n")
 }
@@ -79,6 +84,7 @@ fn passed(scene: &Scene, warnings: &[Finding]) -> String {
         "ok": true,
         "errors": [],
         "warnings": warnings,
+        "notes": scene.notes(),
         "width": scene.settings.image.width,
         "height": scene.settings.image.height,
         "samples": scene.settings.render.samples,
@@ -88,8 +94,8 @@ fn passed(scene: &Scene, warnings: &[Finding]) -> String {
         "boxes": scene.boxes.len(),
         "lamps": scene.lamps().count(),
         "preset": scene.settings.preset.name(),
-        "biased": scene.settings.biased(),
-        "biases": scene.settings.biases(),
+        "biased": scene.biased(),
+        "biases": scene.biases(),
         "knobs": scene.knobs,
     });
     format!("{answer:#}\n")
@@ -97,33 +103,25 @@ fn passed(scene: &Scene, warnings: &[Finding]) -> String {
 
 fn summary(scene: &Scene, warnings: usize) -> String {
     let settings = &scene.settings;
-    let biased = match settings.biases().as_slice() {
+    let biased = match scene.biases().as_slice() {
         [] => "unbiased".into(),
         causes => format!("biased by {}", causes.join(", ")),
     };
     let warned = match warnings {
         0 => String::new(),
-        count => format!(", {}", counted(count, "warning", "warnings")),
+        count => format!(", {}", counted(count, "warning")),
     };
     format!(
         "{}: ok{warned}\n  picture  {} x {} pixels, {}, {}\n  scene    {}, {}, {}, {}\n  preset   {}, {biased}\n",
         short(&scene.source.name),
         settings.image.width,
         settings.image.height,
-        counted(
-            settings.render.samples as usize,
-            "path a pixel",
-            "paths a pixel"
-        ),
-        counted(settings.render.max_bounces as usize, "bounce", "bounces"),
-        counted(scene.spheres.len(), "sphere", "spheres"),
-        counted(scene.boxes.len(), "box", "boxes"),
-        counted(scene.lamps().count(), "lamp", "lamps"),
-        counted(scene.materials.len(), "material", "materials"),
+        counted_as(settings.render.samples, "path a pixel", "paths a pixel"),
+        counted(settings.render.max_bounces, "bounce"),
+        counted(scene.spheres.len(), "sphere"),
+        counted_as(scene.boxes.len(), "box", "boxes"),
+        counted(scene.lamps().count(), "lamp"),
+        counted(scene.materials.len(), "material"),
         settings.preset,
     )
-}
-
-fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }

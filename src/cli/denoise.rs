@@ -8,6 +8,7 @@ use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::{Denoising, Format, Picture, Record, Seconds, Stop, Target, name_outputs};
 use crate::render::{Rendering, Spares};
+use crate::wording::{all_named, signed};
 use clap::Args;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -100,6 +101,10 @@ impl Session<'_> {
             return Ok(false);
         };
         name_outputs(&mut smoothed.record, &targets);
+        if picture.as_ref().is_some_and(denoise::is_faint) {
+            let text = "warning: the light is so faint that 32 bits hold little or nothing of its variance, by which the denoiser goes: noise is left in; give the lamps more emission";
+            remark(text, self.output);
+        }
         record.outputs.extend(smoothed.record.outputs.clone());
         tell_of_denoising(&smoothed.record, self.output);
         if self.run.no_times {
@@ -148,9 +153,10 @@ fn tell_of_denoising(record: &Record, output: Output) {
     let before = sum(denoised.mean_before);
     let change = 100.0 * (sum(record.mean) - before) / before.max(f64::MIN_POSITIVE);
     note(&format!(
-        "{}: denoised in {:.2} s; the mean changed by {change:+.2} %",
-        record.outputs.join(", "),
-        denoised.seconds
+        "{}: denoised in {:.2} s; the mean changed by {} %",
+        all_named(&record.outputs),
+        denoised.seconds,
+        signed(change, 2)
     ));
 }
 

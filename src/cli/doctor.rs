@@ -1,7 +1,9 @@
 use super::options::DeviceOptions;
 use super::{Output, Result, note, print};
-use crate::doctor::{examine, record, table};
+use crate::doctor::{Examination, examine, record, table};
+use crate::error::Error;
 use clap::Args;
+use serde_json::json;
 
 /// Check that a device computes as it should
 ///
@@ -25,11 +27,11 @@ pub(crate) struct Command {
 
 impl Command {
     pub(crate) fn run(self, output: Output) -> Result<()> {
-        let mut chosen = self.device.open_unexamined()?;
-        if let (Some(remark), false) = (&chosen.remark, output.quiet) {
-            note(&format!("lampray: {remark}"));
+        let outcome = self.examine(output);
+        if let (Err(error), true) = (&outcome, output.json) {
+            print(&(unexamined(error) + "\n"))?;
         }
-        let examination = examine(chosen.device.as_mut())?;
+        let examination = outcome?;
         record(&examination);
         print(&match output.json {
             true => examination.to_json() + "\n",
@@ -37,4 +39,24 @@ impl Command {
         })?;
         examination.verdict()
     }
+
+    fn examine(&self, output: Output) -> Result<Examination> {
+        let mut chosen = self.device.open_unexamined()?;
+        if let (Some(remark), false) = (&chosen.remark, output.quiet) {
+            note(&format!("lampray: {remark}"));
+        }
+        examine(chosen.device.as_mut())
+    }
+}
+
+/// The object of a device that could not be asked: the same keys, and why.
+fn unexamined(error: &Error) -> String {
+    json!({
+        "device": null,
+        "limits": null,
+        "canaries": [],
+        "ok": false,
+        "error": error.to_string(),
+    })
+    .to_string()
 }

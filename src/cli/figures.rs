@@ -7,6 +7,7 @@ use super::{Output, print};
 use crate::error::{Error, Result};
 use crate::figures::{self, About, Data, Effort, Figure, NUMBERS, files};
 use crate::reproduce::{Order, Outcome, reproduce};
+use crate::wording::{counted, named, were_there};
 use clap::Args;
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -147,10 +148,10 @@ impl Command {
         let page = self.output.join("index.html");
         remark(
             &format!(
-                "{}: {} runs made, {} were there; {:.0} s in all",
-                page.display(),
-                outcome.made,
-                outcome.found,
+                "{}: {} made, {}; {:.0} s in all",
+                named(&page),
+                counted(outcome.made, "run"),
+                were_there(outcome.found),
                 started.elapsed().as_secs_f64()
             ),
             output,

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::film::{Checkpoint, Record, previous};
 use crate::place::{Place, follow};
 use crate::render::{self, Rendering, Task};
+use crate::wording::named;
 use clap::Args;
 use std::fs::{self, File, Metadata, TryLockError};
 use std::io;
@@ -61,6 +62,11 @@ impl KeepOptions {
         let Some(path) = &self.checkpoint else {
             return Ok(None);
         };
+        if path.as_os_str() == "-" {
+            return Err(Error::Usage(
+                "--checkpoint -: sums are kept in a file, not on standard output; a file of that name is ./-".into(),
+            ));
+        }
         // Where links lead: the checkpoint before lies beside this one, and both can be removed.
         let path = &follow(path).map_err(|source| Error::Create {
             path: path.clone(),
@@ -86,7 +92,7 @@ impl KeepOptions {
             if self.resume {
                 note(&format!(
                     "lampray: no checkpoint at {}: beginning anew",
-                    path.display()
+                    named(path)
                 ));
             }
             return Ok(Some((keeper, Rendering::new(task))));
@@ -126,7 +132,7 @@ impl Keeper {
         let place = Place::prepare(&self.path)?;
         let own = [place.identity(), previous(&place.identity())];
         let refused = |why: &str| {
-            let path = self.path.display();
+            let path = named(&self.path);
             Err(Error::Usage(format!("--checkpoint {path}: {why}")))
         };
         if place.is_stream() {

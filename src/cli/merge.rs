@@ -1,6 +1,8 @@
+use super::options::refuse_mixed;
 use super::{Output, Result};
 use crate::error::Error;
 use crate::film::{Record, Target, merge, name_outputs};
+use crate::wording::{all_named, counted_as};
 use clap::Args;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -31,6 +33,7 @@ impl Command {
         if self.inputs.len() < 2 {
             return Err(Error::Usage("merge needs at least two pictures".into()));
         }
+        refuse_mixed(&self.outputs, output)?;
         let targets = Target::prepare_all(&self.outputs)?;
         let mut picture = merge(&self.inputs, self.allow_mixed)?;
         name_outputs(&mut picture.record, &targets);
@@ -57,9 +60,9 @@ fn report(record: &Record, inputs: usize) {
     };
     let _ = writeln!(
         io::stderr(),
-        "merged {inputs} pictures: {} samples a pixel ({first}..{end}{gaps}), written to {}",
-        record.samples,
-        record.outputs.join(", ")
+        "merged {inputs} pictures: {} ({first}..{end}{gaps}), written to {}",
+        counted_as(record.samples, "sample a pixel", "samples a pixel"),
+        all_named(&record.outputs)
     );
 }
 

@@ -21,7 +21,7 @@ mod sweep;
 
 use crate::error::{Error, Result};
 use clap::{Args, Parser, Subcommand};
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::panic;
 use std::process::ExitCode;
 
@@ -132,8 +132,12 @@ const INTERNAL: u8 = 70;
 /// Puts data on stdout. A reader that has gone, such as `head`, is no error.
 pub(crate) fn print(text: &str) -> Result<()> {
     let mut stdout = io::stdout().lock();
+    let shown = match stdout.is_terminal() {
+        true => plain(text),
+        false => text.into(),
+    };
     let written = stdout
-        .write_all(text.as_bytes())
+        .write_all(shown.as_bytes())
         .and_then(|()| stdout.flush());
     match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Stream {

@@ -1,14 +1,17 @@
 //! Arguments that several commands share, and their one conversion each.
 
+use super::Output;
 use crate::device::{Device, DeviceKind, DeviceRequest};
 use crate::error::{Error, Result};
 use crate::pack::Rect;
+use crate::place::is_standard_output;
 use crate::render::{self, Chosen};
 use crate::scene::{Assignment, Scene};
 use crate::sweep::Axis;
+use crate::wording::named;
 use clap::{Args, ValueEnum};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Knobs over what the scene says.
@@ -180,6 +183,24 @@ pub(crate) fn crop(text: &str, scene: &Scene) -> Result<Rect> {
         _ => Err(Error::Usage(format!(
             "--crop {text}: give X0,Y0,X1,Y1 in pixels with 0 <= X0 < X1 <= {} and 0 <= Y0 < Y1 <= {}",
             all.x1, all.y1
+        ))),
+    }
+}
+
+/// Refuses a picture where JSON goes: nobody could read either.
+///
+/// # Errors
+/// [`Error::Usage`].
+pub(crate) fn refuse_mixed<'p>(
+    outputs: impl IntoIterator<Item = &'p PathBuf>,
+    output: Output,
+) -> Result<()> {
+    let mut outputs = outputs.into_iter();
+    match outputs.find(|path| output.json && is_standard_output(path)) {
+        None => Ok(()),
+        Some(path) => Err(Error::Usage(format!(
+            "output {} is standard output, where --json prints: leave one of them out, or give -o a file",
+            named(path)
         ))),
     }
 }

@@ -1,4 +1,4 @@
-use super::options::{DeviceOptions, KnobOptions};
+use super::options::{DeviceOptions, KnobOptions, refuse_mixed};
 use super::{Output, Result, note, print};
 use crate::error::Error;
 use crate::points::{self, Kind, Request};
@@ -84,6 +84,7 @@ impl Command {
             count: self.count,
             knobs: self.knobs.assignments()?,
         };
+        refuse_mixed(&self.output, output)?;
         let sink = points::Sink::prepare(self.output.as_deref())?;
         let mut chosen = self.device.open()?;
         if let (Some(remark), false) = (&chosen.remark, output.quiet) {

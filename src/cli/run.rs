@@ -2,7 +2,7 @@
 
 use super::denoise::beside;
 use super::keep::{KeepOptions, Keeper};
-use super::options::DeviceOptions;
+use super::options::{DeviceOptions, refuse_mixed};
 use super::progress::bar;
 use super::signal::Watch;
 use super::{Output, note, print};
@@ -12,6 +12,7 @@ use crate::film::{Aov, Denoising, Film, Picture, Record, Seconds, Stop, Target, 
 use crate::pack::Rect;
 use crate::render::{self, Rendering, Spares, Task};
 use crate::scene::Scene;
+use crate::wording::{all_named, counted, counted_as, named};
 use clap::Args;
 use indicatif::ProgressBar;
 use std::ops::{ControlFlow, Range};
@@ -67,6 +68,7 @@ impl Run<'_> {
     /// Renders and writes. Outputs that cannot be written are refused before anything is rendered.
     pub(crate) fn go(self, output: Output) -> Result<()> {
         let started = Instant::now();
+        refuse_mixed(&self.outputs, output)?;
         let task = Task {
             region: self.region,
             samples: self.samples.clone(),
@@ -81,6 +83,10 @@ impl Run<'_> {
         render::refuse_too_large(&task)?;
         for line in self.scene.unbounded_lines() {
             remark(&format!("warning: {line}"), output);
+        }
+        let idle = self.scene.idle_materials().into_iter();
+        for line in idle.chain(self.scene.notes()) {
+            remark(&format!("note: {line}"), output);
         }
         let (targets, denoised) = self.targets()?;
         let mut device = self.open(output)?;
@@ -242,7 +248,7 @@ impl Session<'_> {
         }
         keeper.save(self.task, rendering)?;
         if let Some(path) = keeper.kept() {
-            let path = path.display();
+            let path = named(path);
             remark(&format!("--resume goes on from {path}"), self.output);
         }
         Ok(())
@@ -251,7 +257,10 @@ impl Session<'_> {
     /// Writes the picture, to every output that takes it; its record, if there is one.
     fn write(&self, rendering: &Rendering, targets: Vec<Target>) -> (Option<Record>, Result<()>) {
         let Some(mut picture) = self.picture(rendering) else {
-            let what = "not every pixel has a sample yet: no picture is written";
+            let what = match rendering.traced() {
+                0 => "nothing is traced yet: no picture is written, and there are no sums to keep",
+                _ => "not every pixel has a sample yet: no picture is written",
+            };
             if rendering.stopped == Some(Stop::Time) {
                 return (
                     None,
@@ -318,7 +327,7 @@ fn progress_bar(output: Output, scene: &Scene) -> ProgressBar {
         output,
         "{prefix} {wide_bar} {percent}% {elapsed}/{duration}",
     );
-    bar.set_prefix(name.to_string_lossy().into_owned());
+    bar.set_prefix(named(name));
     bar
 }
 
@@ -332,8 +341,12 @@ fn warn_non_finite(rendering: &Rendering) {
 fn warn_non_finite_of(film: &Film) {
     if let Some(first) = &film.first_non_finite {
         note(&format!(
-            "warning: {} of {} samples were not finite and count as black; the first is sample {} of pixel {},{}",
-            film.non_finite, film.paths, first.sample, first.x, first.y
+            "warning: {} of {} not finite, counted as black; the first is sample {} of pixel {},{}",
+            film.non_finite,
+            counted(film.paths, "sample"),
+            first.sample,
+            first.x,
+            first.y
         ));
     }
 }
@@ -360,23 +373,27 @@ fn summary(record: &Record) -> String {
     let paths = record.paths.saturating_add(scouts);
     let speed = paths as f64 / record.seconds.render.max(1e-9) / 1e6;
     format!(
-        "{}: {}x{}, {} samples a pixel{state} in {:.2} s ({speed:.2} Msamples/s) on {}",
-        record.outputs.join(", "),
+        "{}: {}x{}, {}{state} in {:.2} s ({speed:.2} Msamples/s) on {}",
+        all_named(&record.outputs),
         record.width,
         record.height,
-        counted(record),
+        samples(record),
         record.seconds.render,
         devices.join(" and ")
     )
 }
 
 /// Samples a pixel, and of how many where they differ by design.
-fn counted(record: &Record) -> String {
+fn samples(record: &Record) -> String {
     if record.adaptive.is_none() {
-        return record.samples.to_string();
+        return counted_as(record.samples, "sample a pixel", "samples a pixel");
     }
     let pixels = f64::from(record.width) * f64::from(record.height);
     let [first, end] = record.sample_range;
     let mean = record.paths as f64 / pixels;
-    format!("{} to {} (mean {mean:.1})", record.samples, end - first)
+    format!(
+        "{} to {} (mean {mean:.1}) samples a pixel",
+        record.samples,
+        end - first
+    )
 }

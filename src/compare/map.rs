@@ -5,6 +5,7 @@ use super::study::Study;
 use crate::error::{Error, Result};
 use crate::film::Format;
 use crate::place::{Place, Sink};
+use crate::wording::named;
 use exr::math::Vec2;
 use exr::prelude::{
     Encoding, Image, ImageAttributes, Layer, LayerAttributes, SpecificChannels, WritableImage,
@@ -158,7 +159,7 @@ pub fn prepare(path: &Path) -> Result<Place> {
     if Format::of(path).is_none() {
         return Err(Error::Usage(format!(
             "--map {}: must end in .png or .exr",
-            path.display()
+            named(path)
         )));
     }
     Place::prepare(path)

@@ -5,6 +5,7 @@ use super::records::{Kinship, kinship};
 use crate::error::{Error, Result};
 use crate::film::{Noise, Pixels, Raster, RasterFile};
 use crate::pack::Rect;
+use crate::wording::named;
 use std::path::Path;
 
 /// A reference and a test, of one size. Tests are judged by how far they are from references.
@@ -32,7 +33,7 @@ impl Pair {
                     "{} x {} pixels, but {} has {} x {}: only pictures of one size can be compared",
                     second.0,
                     second.1,
-                    reference.display(),
+                    named(reference),
                     first.0,
                     first.1
                 ),

@@ -7,7 +7,7 @@
 //!
 //! What is filtered is light before the surfaces' albedo, so that a step in albedo costs nothing. How much of a
 //! difference is noise goes by the variance of each pixel's mean, which is known: where there is none, nothing
-//! changes. Dammertz et al. (2010) and Schied et al. (2017), as `shaders/denoise.wgsl` says.
+//! changes. Light is counted in the picture's own brightness, so that its unit does not matter. Dammertz et al. (2010) and Schied et al. (2017), as `shaders/denoise.wgsl` says.
 
 mod hands;
 mod light;
@@ -23,6 +23,7 @@ use hands::Hands;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+pub use light::is_faint;
 pub use passes::window;
 
 /// The share of the time that guides take, about.
@@ -47,15 +48,18 @@ pub fn denoise<'a>(
     let began = Instant::now();
     let packed = Packed::by(task.scene, task.traversal);
     let mut hands = Hands::new(device, packed, spares)?;
-    let Some(lit) = sites::sites(&mut hands, task, picture, by, watch)? else {
+    let Some(mut lit) = sites::sites(&mut hands, task, by, watch)? else {
         return Ok(None);
     };
-    let estimates = light::estimates(picture, &lit.shades);
+    let unit = light::unit(picture, &lit);
+    light::leave_out(picture, unit, &mut lit.sites);
+    let shades = light::shades(&lit, unit);
+    let estimates = light::estimates(picture, unit, &shades);
     let size = [picture.width, picture.height];
     let Some(smoothed) = passes::run(&mut hands, size, by, &lit.sites, estimates, watch)? else {
         return Ok(None);
     };
-    let mean = light::means(picture, &lit.shades, &smoothed);
+    let mean = light::means(picture, unit, &shades, &smoothed);
     let mut record = picture.record.clone();
     record.mean = light::mean_of(&mean);
     record.denoised = Some(Denoised {

@@ -1,12 +1,13 @@
 //! What is known of each pixel without noise: means of the guides of the rays through it.
 
 use super::hands::Hands;
+use super::light::BLACK;
 use super::passes::widths;
 use super::{GUIDES, Watch};
 use crate::cpu::denoise::site_distance;
 use crate::cpu::maths::lesser;
 use crate::error::Result;
-use crate::film::{Denoising, Picture};
+use crate::film::Denoising;
 use crate::knobs::{Choice, Scatter};
 use crate::pack::{DenoiseJob, Guide, Material, Packed, Rect, Site};
 use crate::render::Task;
@@ -16,32 +17,30 @@ use glam::{Vec3, Vec4};
 const FINENESS: u32 = 4;
 /// Pixels of a block, each way: some two hundred thousand rays, a fraction of a dispatch's half second.
 const BLOCK: [u32; 2] = [256, 48];
-/// Below this a shade is black: what is divided by it would be anything.
-const BLACK: f32 = 1e-3;
 /// The largest spread: beyond, a pixel that the background shows through would be like everything.
 const WIDEST: f32 = 30.0;
-/// Radiance beyond it, or that is no number, takes part in nothing: sums of it would not be finite.
-const BRIGHTEST: f32 = 1e30;
 
-/// Sites and shades of a picture, row by row.
+/// Sites of a picture and what is seen at them, row by row.
 pub(super) struct Lit {
     pub sites: Vec<Site>,
-    /// What the light was multiplied by on its last way to the eye: albedo and mirrors; or its emission.
-    pub shades: Vec<[f32; 3]>,
+    /// Shares of light that come from there to the eye, by albedo and mirrors.
+    pub reflected: Vec<[f32; 3]>,
+    /// Radiance that comes from there to the eye because it shines.
+    pub shining: Vec<[f32; 3]>,
 }
 
 /// None where `watch` stopped it.
 pub(super) fn sites(
     hands: &mut Hands,
     task: &Task,
-    picture: &Picture,
     by: Denoising,
     watch: &mut Watch,
 ) -> Result<Option<Lit>> {
     let region = task.region;
     let mut lit = Lit {
         sites: vec![Site::default(); region.area()],
-        shades: vec![[1.0; 3]; region.area()],
+        reflected: vec![[1.0; 3]; region.area()],
+        shining: vec![[0.0; 3]; region.area()],
     };
     let looks = Looks::new(&hands.packed, widths(by));
     for y0 in (region.y0..region.y1).step_by(BLOCK[1] as usize) {
@@ -50,7 +49,7 @@ pub(super) fn sites(
             let (x1, y1) = (x1.min(region.x1), y1.min(region.y1));
             let rect = Rect { x0, y0, x1, y1 };
             let guides = hands.ask(|device| device.guides(rect, FINENESS))?;
-            lit.fill(&looks, region, rect, &guides, picture);
+            lit.fill(&looks, region, rect, &guides);
         }
         let share = f64::from(y0 - region.y0) / f64::from(region.height());
         if watch(GUIDES * share).is_break() {
@@ -62,14 +61,7 @@ pub(super) fn sites(
 
 impl Lit {
     /// The pixels of `rect`, whose guides come lattice row by lattice row.
-    fn fill(
-        &mut self,
-        looks: &Looks,
-        region: Rect,
-        rect: Rect,
-        guides: &[Guide],
-        picture: &Picture,
-    ) {
+    fn fill(&mut self, looks: &Looks, region: Rect, rect: Rect, guides: &[Guide]) {
         let fineness = FINENESS as usize;
         let lanes = rect.width() as usize * fineness;
         for index in 0..rect.area() {
@@ -80,13 +72,10 @@ impl Lit {
             let own = rows.flat_map(|start| &guides[start..start + fineness]);
             let column = (pixel.x0 - region.x0) as usize;
             let place = (pixel.y0 - region.y0) as usize * region.width() as usize + column;
-            let valid = picture.mean[place]
-                .iter()
-                .all(|value| value.abs() <= BRIGHTEST);
-            (self.sites[place], self.shades[place]) = looks.mean(own);
-            if !valid {
-                self.sites[place].spread = -1.0;
-            }
+            let (site, reflected, shining) = looks.mean(own);
+            self.sites[place] = site;
+            self.reflected[place] = reflected.to_array();
+            self.shining[place] = shining.to_array();
         }
     }
 }
@@ -122,44 +111,44 @@ impl Looks {
         }
     }
 
-    /// The site of a pixel, and its shade: means over its guides.
-    fn mean<'a>(&self, guides: impl Iterator<Item = &'a Guide>) -> (Site, [f32; 3]) {
+    /// The site of a pixel, and what it reflects and how it shines: means over its guides.
+    fn mean<'a>(&self, guides: impl Iterator<Item = &'a Guide>) -> (Site, Vec3, Vec3) {
         let seen: Vec<_> = guides.map(|guide| self.look(guide)).collect();
         let share = 1.0 / seen.len() as f32;
-        let (mut mean, mut shade) = (Site::default(), Vec3::ZERO);
-        for (site, own_shade) in &seen {
-            shade += *own_shade * share;
+        let mut mean = Site::default();
+        let (mut reflected, mut shining) = (Vec3::ZERO, Vec3::ZERO);
+        for (site, own_reflected, own_shining) in &seen {
+            reflected += *own_reflected * share;
+            shining += *own_shining * share;
             mean.normal = (Vec3::from(mean.normal) + share * Vec3::from(site.normal)).to_array();
             mean.position =
                 (Vec3::from(mean.position) + share * Vec3::from(site.position)).to_array();
             mean.footprint += share * site.footprint;
             mean.kind = (Vec4::from(mean.kind) + share * Vec4::from(site.kind)).to_array();
         }
-        let apart = |(site, _): &(Site, Vec3)| site_distance(&self.job, site, &mean);
+        let apart = |(site, ..): &(Site, Vec3, Vec3)| site_distance(&self.job, site, &mean);
         mean.spread = lesser(seen.iter().map(apart).sum::<f32>() * share, WIDEST);
-        (mean, shade.to_array())
+        (mean, reflected, shining)
     }
 
-    /// The site of one ray, and what its light was multiplied by.
-    fn look(&self, guide: &Guide) -> (Site, Vec3) {
+    /// The site of one ray, what it reflects and how it shines.
+    fn look(&self, guide: &Guide) -> (Site, Vec3, Vec3) {
         let material = guide
             .id
             .checked_sub(1)
             .map(|body| &self.materials[body as usize]);
-        // What emits is divided by its emission: how much of a pixel a lamp fills is known better than its paths
+        // What shines is divided by its emission: how much of a pixel a lamp fills is known better than its paths
         // could say.
-        let light = match material {
-            None => self.background,
-            Some(material) => Vec3::from(material.emission) + Vec3::from(material.albedo),
+        let (albedo, emission) = match material {
+            None => (Vec3::ZERO, self.background),
+            Some(material) => (material.albedo.into(), material.emission.into()),
         };
+        let tint = Vec3::from(guide.tint);
+        let (reflected, shining) = (albedo * tint, emission * tint);
         let emits = material.is_none_or(|material| material.emission != [0.0; 3]);
         let matt = material.is_some_and(|material| material.scatter == Scatter::Diffuse.index());
-        let shade = light * Vec3::from(guide.tint);
-        let black = shade
-            .to_array()
-            .iter()
-            .filter(|value| **value < BLACK)
-            .count();
+        let dark = |channel: &usize| reflected[*channel] < BLACK && shining[*channel] == 0.0;
+        let black = (0..3).filter(dark).count();
         let share = |yes: bool| if yes { 1.0 } else { 0.0 };
         let site = Site {
             normal: guide.normal,
@@ -173,6 +162,7 @@ impl Looks {
                 black as f32 / 3.0,
             ],
         };
-        (site, shade.max(Vec3::splat(BLACK)))
+        let least = if emits { 0.0 } else { BLACK };
+        (site, reflected.max(Vec3::splat(least)), shining)
     }
 }

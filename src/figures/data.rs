@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::place::Place;
 use crate::shader::library_hash;
 use crate::sweep::{Answer, Entry, Experiment, ReferenceRule};
+use crate::wording::named;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -134,7 +135,7 @@ impl Data {
         if let (true, [_, ..]) = (made.0.is_empty(), old.as_slice()) {
             return Err(Error::Usage(format!(
                 "{}: another version of lampray rendered this; lampray figures renders it again",
-                folder.display()
+                named(folder)
             )));
         }
         if made.0.is_empty() {

@@ -22,6 +22,7 @@ use crate::error::{Error, Result};
 use crate::knobs::short;
 use crate::pack::Rect;
 use crate::place::Place;
+use crate::wording::named;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
@@ -301,7 +302,7 @@ impl Checkpoint {
         let before = previous(path);
         match Self::read(&before) {
             Ok(checkpoint) => {
-                let remark = format!("{fault}; going on from {}", before.display());
+                let remark = format!("{fault}; going on from {}", named(&before));
                 Ok(Some((checkpoint, Some(remark))))
             }
             Err(error) if missing(&fault) && missing(&error) => Ok(None),

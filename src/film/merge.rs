@@ -147,7 +147,10 @@ impl Sum {
 
         let mut mean = PictureMean::default();
         for moments in &pixels {
-            mean.add(moments.mean, moments.variance(), moments.count);
+            let Moments {
+                count, estimates, ..
+            } = *moments;
+            mean.add(moments.mean, moments.variance(), count, estimates);
         }
         let record = &mut picture.record;
         let means = &record.randomisation_means;

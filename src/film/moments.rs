@@ -180,14 +180,17 @@ impl Film {
 
     /// Standard error of [`Film::picture_mean`], taking the pixels as independent; where they share point sets, by the
     /// spread of the picture's mean over the randomisations.
+    ///
+    /// A pixel of which no variance is known adds nothing: [`Film::describe`] leaves the error out then.
     pub fn standard_error(&self) -> [f64; 3] {
-        self.over_pixels().standard_error()
+        self.over_pixels().spread()
     }
 
     fn over_pixels(&self) -> PictureMean {
         let mut mean = PictureMean::default();
         for (pixel, &count) in self.counts.iter().enumerate() {
-            mean.add(self.mean(pixel), self.variance(pixel), count);
+            let estimates = self.estimates(pixel);
+            mean.add(self.mean(pixel), self.variance(pixel), count, estimates);
         }
         if let (Some((means, samples)), Some(all)) = (self.shared_means(), &self.randomisations) {
             mean.told_by(&means, all.length, samples);
@@ -330,13 +333,16 @@ pub(super) struct PictureMean {
     /// Sum of the variances of the pixels' means.
     variances: [f64; 3],
     pixels: u64,
+    /// Pixels with fewer than two independent estimates: their noise is not known.
+    unknown: u64,
     /// Variance of the mean of the picture, where the pixels' own do not tell it.
     told: Option<[f64; 3]>,
 }
 
 impl PictureMean {
-    /// Adds a pixel's mean and the variance of one of its `count` samples.
-    pub(super) fn add(&mut self, mean: [f64; 3], variance: [f64; 3], count: u64) {
+    /// Adds a pixel's mean and the variance of one of its `count` samples, made of so many independent estimates.
+    pub(super) fn add(&mut self, mean: [f64; 3], variance: [f64; 3], count: u64, estimates: u64) {
+        self.unknown += u64::from(estimates < 2);
         for channel in 0..3 {
             self.sums[channel] += mean[channel];
             self.variances[channel] += variance[channel] / count.max(1) as f64;
@@ -350,10 +356,19 @@ impl PictureMean {
 
     /// The pixels share point sets: these are the picture's means by randomisation.
     pub(super) fn told_by(&mut self, means: &[[f64; 3]], length: u64, samples: u64) {
+        if means.len() < 2 {
+            self.unknown = self.pixels;
+        }
         self.told = Some(variance_of_mean(means, length, samples));
     }
 
-    pub(super) fn standard_error(&self) -> [f64; 3] {
+    /// The standard error of the mean, where it is known of every pixel.
+    pub(super) fn standard_error(&self) -> Option<[f64; 3]> {
+        (self.unknown == 0).then(|| self.spread())
+    }
+
+    /// The same of the pixels of which it is known.
+    fn spread(&self) -> [f64; 3] {
         if let Some(told) = self.told {
             return told.map(f64::sqrt);
         }

@@ -5,6 +5,7 @@ use super::png::write_png;
 use super::{Picture, Record};
 use crate::error::{Error, Result};
 use crate::place::Place;
+use crate::wording::named;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -63,7 +64,7 @@ impl Target {
             .find(|target| !seen.insert(target.place.identity()))
         {
             Some(twice) => {
-                let message = format!("output {} is given twice", twice.path().display());
+                let message = format!("output {} is given twice", named(twice.path()));
                 Err(Error::Usage(message))
             }
             None => Ok(targets),
@@ -105,7 +106,7 @@ impl Target {
 }
 
 fn unknown_format(path: &Path) -> Error {
-    let path = path.display();
+    let path = named(path);
     Error::Usage(format!(
         "output {path} must end in .png or .exr, which are the formats there are"
     ))

@@ -5,6 +5,7 @@ use super::{Picture, Record, read_exr, read_record};
 use crate::device::DeviceInfo;
 use crate::error::{Error, Result};
 use crate::knobs::short;
+use crate::wording::named;
 use std::path::{Path, PathBuf};
 
 /// The knob in which the parts may differ: how many samples.
@@ -67,7 +68,7 @@ pub(super) fn compare(first: &Part, other: &Part, allow_mixed: bool) -> Result<(
     // How many samples were planned says how long a randomisation is.
     let ignored = first.record.randomisation.is_none().then_some(SAMPLES);
     if let Some(found) = difference(&first.record, &other.record, ignored) {
-        let first = first.path.display();
+        let first = named(&first.path);
         return other.fail(format!(
             "{} is {}, but {} in {first}: not the same render",
             found.what, found.other, found.one
@@ -88,7 +89,7 @@ fn compare_devices(first: &Part, other: &Part) -> Result<()> {
             return part.fail(format!(
                 "rendered on {}, but {} on {}; --allow-mixed merges them all the same",
                 describe(unlike),
-                first.path.display(),
+                named(&first.path),
                 describe(device)
             ));
         }
@@ -144,7 +145,7 @@ pub(super) fn check_disjoint(parts: &[Part]) -> Result<()> {
             continue;
         };
         if another[0] < one[1] {
-            let first = first.path.display();
+            let first = named(&first.path);
             return other.fail(format!(
                 "samples {}..{} overlap with {}..{} of {first}",
                 another[0], another[1], one[0], one[1]

@@ -68,8 +68,8 @@ pub struct Record {
     pub non_finite: u64,
     /// Mean radiance over the picture.
     pub mean: [f64; 3],
-    /// Standard error of `mean`.
-    pub standard_error: [f64; 3],
+    /// Standard error of `mean`; null where it is not known: a pixel has one sample alone, or one randomisation.
+    pub standard_error: Option<[f64; 3]>,
     /// What standard errors and variances are made of.
     #[serde(default)]
     pub error_estimate: ErrorEstimate,

@@ -95,7 +95,7 @@ impl Gpu {
             pace: Pace::default(),
             loaded: None,
             queue: Queue::default(),
-            fault: Fault::of_this_device(),
+            fault: Fault::of_this_device()?,
             shaders: Library::default(),
         })
     }

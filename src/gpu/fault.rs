@@ -1,6 +1,8 @@
 //! Faults that tests ask for: a device that is lost in the middle of a render, as happens when a driver is
 //! reset or a node's GPU falls off its bus.
 
+use crate::error::{Error, Result};
+use crate::knobs::short;
 use std::env;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -20,16 +22,17 @@ pub struct Fault {
 
 impl Fault {
     /// What the environment says of the next device that is opened.
-    pub fn of_this_device() -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for what are no numbers: a test that loses nothing would pass.
+    pub fn of_this_device() -> Result<Self> {
         let number = OPENED.fetch_add(1, Ordering::SeqCst);
-        let text = env::var(LOSE_DEVICE).unwrap_or_default();
-        Self {
-            after: text
-                .split(',')
-                .nth(number)
-                .and_then(|blocks| blocks.trim().parse().ok()),
+        let text = env::var_os(LOSE_DEVICE).unwrap_or_default();
+        let after = blocks(&text.to_string_lossy())?;
+        Ok(Self {
+            after: after.get(number).copied(),
             blocks: 0,
-        }
+        })
     }
 
     /// Another scene is loaded: its blocks are counted anew.
@@ -42,5 +45,36 @@ impl Fault {
         let now = self.after == Some(self.blocks);
         self.blocks += 1;
         now
+    }
+}
+
+/// After how many blocks each device in turn is to be lost; nothing says none.
+fn blocks(text: &str) -> Result<Vec<u64>> {
+    if text.is_empty() {
+        return Ok(Vec::new());
+    }
+    let numbers = text.split(',').map(|number| number.trim().parse().ok());
+    numbers.collect::<Option<_>>().ok_or_else(|| {
+        Error::Usage(format!(
+            "{LOSE_DEVICE}={}: give numbers of blocks, one for each device that is to be lost in turn, such as 5 or 5,0; or unset it",
+            short(text)
+        ))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nonsense_is_refused() {
+        assert!(blocks("").unwrap().is_empty());
+        assert_eq!(blocks("5, 0").unwrap(), [5, 0]);
+        for nonsense in ["five", "5,", "-1", "0.5", "5;0", " "] {
+            assert!(
+                matches!(blocks(nonsense), Err(Error::Usage(_))),
+                "{nonsense}"
+            );
+        }
     }
 }

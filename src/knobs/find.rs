@@ -41,6 +41,9 @@ pub fn sections() -> Vec<&'static str> {
 
 /// Why no knob has this path, with the nearest that there are.
 pub fn unknown(path: &str) -> String {
+    if let Some(whole) = whole_table(path) {
+        return whole;
+    }
     let generic = generic(path);
     let near = nearest(&generic, KNOBS.iter().map(|knob| knob.path));
     let near = near.or_else(|| {
@@ -54,6 +57,41 @@ pub fn unknown(path: &str) -> String {
         None => "`lampray knobs` lists them all".into(),
     };
     format!("there is no knob `{}`; {near}", short(path))
+}
+
+/// What is wrong with a path that stops at a table of the scene file, whose values are set one by one.
+fn whole_table(path: &str) -> Option<String> {
+    let (section, item) = match path.split_once('.') {
+        Some((section, item)) => (section, Some(item)),
+        None => (path, None),
+    };
+    let shown = short(path);
+    if section == "sweep" {
+        return Some(format!(
+            "`{shown}` is no knob: a sweep's own arguments say what it does, or the scene's [sweep] table"
+        ));
+    }
+    let is_item = |item: &str| {
+        let key = in_section(section).any(|knob| knob.key() == item);
+        REPEATED.contains(&section) && !item.contains('.') && !key
+    };
+    if !sections().contains(&section) || !item.is_none_or(is_item) {
+        return None;
+    }
+    let paths = in_section(section).map(|knob| match item {
+        Some(item) => format!("`{}`", knob.path.replace('*', &short(item))),
+        None => format!("`{}`", knob.path),
+    });
+    let paths: Vec<_> = paths.take(3).collect();
+    let more = if in_section(section).count() > 3 {
+        ", ..."
+    } else {
+        ""
+    };
+    Some(format!(
+        "`{shown}` is a table: set its values one by one, {}{more} (`lampray knobs {section}`)",
+        paths.join(", ")
+    ))
 }
 
 /// The path with the item's name replaced by `*`.

@@ -146,7 +146,8 @@ impl Settings {
         }
     }
 
-    /// Whether these knobs make the expected picture differ from the light transport they stand for.
+    /// Whether these knobs make the expected picture differ from the light transport they stand for. So may materials:
+    /// see [`Scene::biased`](crate::scene::Scene::biased).
     pub fn biased(&self) -> bool {
         !self.biases().is_empty()
     }

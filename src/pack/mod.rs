@@ -190,6 +190,15 @@ fn pack_pole(pole: Pole) -> Basis {
 /// The narrowest and the widest lobe that f32 angles tell apart from a mirror and from an even angle.
 const SPREAD_RANGE: (f64, f64) = (1e-5, 1e5);
 
+/// Values that a random number of the shaders can have (`random_unit`).
+const DRAWS: f64 = (1 << 24) as f64;
+
+/// The threshold with which numbers on that lattice are compared as with this one, so that the weight of survivors
+/// is over the probability that they have.
+fn drawable(survival: f64) -> f32 {
+    ((f64::from(survival as f32) * DRAWS).ceil() / DRAWS) as f32
+}
+
 fn pack_material(material: &scene::Material, bound: ScatterBound) -> Material {
     let spread = material.spread.clamp(SPREAD_RANGE.0, SPREAD_RANGE.1);
     let right_angle = std::f64::consts::FRAC_PI_2;
@@ -202,7 +211,7 @@ fn pack_material(material: &scene::Material, bound: ScatterBound) -> Material {
         albedo: single(material.albedo),
         scatter: material.scattering().index(),
         emission: single(material.emission),
-        survival: material.survival as f32,
+        survival: drawable(material.survival),
         spread: spread as f32,
         lobe_mass: mass as f32,
         lobe_scale: (half_normal / std::f64::consts::TAU) as f32,

@@ -4,10 +4,11 @@ mod plot;
 
 use crate::device::Device;
 use crate::error::{Error, Result};
-use crate::knobs::{Choice, Scatter, nearest};
+use crate::knobs::{Choice, Scatter, nearest, sections};
 use crate::pack::{Draw, Packed, PointsJob, words};
 use crate::place::Place;
 use crate::scene::{Assignment, Scene};
+use crate::wording::{counted, named};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -68,6 +69,8 @@ pub struct Cloud {
     pub draws: Vec<Draw>,
     /// Whether these are directions off a surface.
     pub scattering: bool,
+    /// Whether that is one of glass: then those that go below it are refracted, not lost.
+    pub glass: bool,
 }
 
 /// A scene of one lamp and one surface, so that the knobs have something to be read from.
@@ -132,11 +135,39 @@ pub fn draw(device: &mut dyn Device, request: &Request) -> Result<Cloud> {
         title,
         draws,
         scattering: job.scattering == 1,
+        glass: matches!(
+            request.kind,
+            Kind::Scatter {
+                scatter: Scatter::Glass,
+                ..
+            }
+        ),
     })
+}
+
+/// Knobs that draws depend on: tables whose values have a part in them.
+const TABLES: [&str; 3] = ["light", "scatter", "render"];
+
+/// Refuses values of a scene, which draws have none of.
+fn refuse_scene(knobs: &[Assignment]) -> Result<()> {
+    let table = |knob: &Assignment| knob.path.split('.').next().unwrap_or_default().to_owned();
+    let of_scene = |knob: &&Assignment| {
+        let known = sections().contains(&table(knob).as_str());
+        known && !TABLES.contains(&table(knob).as_str())
+    };
+    match knobs.iter().find(of_scene) {
+        None => Ok(()),
+        Some(knob) => Err(Error::Knob(format!(
+            "{}: draws have no scene, and {}.* changes nothing of them; set light.*, scatter.* and render.seed, and the surface by --scatter, --spread, --roughness, --index",
+            knob.flag,
+            table(knob)
+        ))),
+    }
 }
 
 /// The built-in scene with the request laid over it.
 fn scene_of(request: &Request) -> Result<Scene> {
+    refuse_scene(&request.knobs)?;
     let mut knobs = request.knobs.clone();
     if let Kind::Scatter {
         scatter,
@@ -225,19 +256,42 @@ impl Cloud {
 
     /// One line for people.
     pub fn summary(&self) -> String {
-        let (_, share) = self.useful();
-        let lost = if self.scattering {
-            "leave the surface"
-        } else {
-            "face the receiver"
-        };
         format!(
-            "{}: {} draws, {:.1} % {lost}, {:.1} % within 30 degrees of the z axis",
+            "{}: {}, {}, {}",
             self.title,
-            self.draws.len(),
-            100.0 * share,
-            100.0 * self.near_poles()
+            counted(self.draws.len() as u64, "draw"),
+            self.share(),
+            self.rest(" degrees")
         )
+    }
+
+    /// The share of the draws that count, in words.
+    fn share(&self) -> String {
+        let share = 100.0 * self.useful().1;
+        match (self.glass, self.scattering) {
+            (true, _) => format!("{share:.1} % are reflected"),
+            (false, true) => format!("{share:.1} % leave the surface"),
+            (false, false) => format!("{share:.1} % face the receiver"),
+        }
+    }
+
+    /// What else is to be said of them: where glass refracts to, which is one direction; of others, how many are near
+    /// the axis.
+    fn rest(&self, degrees: &str) -> String {
+        if !self.glass {
+            let near = 100.0 * self.near_poles();
+            return format!("{near:.1} % within 30{degrees} of the z axis");
+        }
+        let refracted = self.draws.iter().filter(|draw| draw.useful == 0);
+        let count = refracted.clone().count();
+        let share = 100.0 * count as f64 / self.draws.len() as f64;
+        let angle = |draw: &Draw| draw.point[2].abs().min(1.0).acos().to_degrees();
+        match refracted.map(angle).next() {
+            Some(angle) => format!(
+                "{share:.1} % refracted, to {angle:.1}{degrees} from the axis behind the surface"
+            ),
+            None => "none refracted".into(),
+        }
     }
 
     /// The summary as JSON, with the draws where no file holds them.
@@ -293,7 +347,7 @@ impl Sink {
             "png" => Form::Png,
             "svg" => Form::Svg,
             _ => {
-                let path = path.display();
+                let path = named(path);
                 return Err(Error::Usage(format!(
                     "output {path} must end in .csv, .png or .svg"
                 )));

@@ -2,6 +2,7 @@
 
 use super::Cloud;
 use crate::error::{Error, Result};
+use crate::wording::counted;
 use glam::{DVec2, DVec3};
 use image::{ImageFormat, Rgb, RgbImage, imageops};
 use std::fmt::Write as _;
@@ -109,22 +110,16 @@ pub fn svg(cloud: &Cloud) -> String {
         svg_view(&mut text, &view, cloud);
     }
     let title = cloud.title.replace('&', "&amp;").replace('<', "&lt;");
-    let (_, share) = cloud.useful();
-    let what = if cloud.scattering {
-        "leave the surface"
-    } else {
-        "face the receiver"
-    };
     // Writing into a string cannot fail.
     let _ = writeln!(
         text,
-        "<text x=\"20\" y=\"{}\" font-weight=\"bold\">{title}</text>\n<text x=\"20\" y=\"{}\" fill=\"{}\">{} draws; blue: {:.1} % {what}; pale: far side; {:.1} % within 30° of the z axis</text>\n</svg>",
+        "<text x=\"20\" y=\"{}\" font-weight=\"bold\">{title}</text>\n<text x=\"20\" y=\"{}\" fill=\"{}\">{}; blue: {}; pale: far side; {}</text>\n</svg>",
         SIDE + 18.0,
         SIDE + 40.0,
         hex(AXIS),
-        cloud.draws.len(),
-        100.0 * share,
-        100.0 * cloud.near_poles()
+        counted(cloud.draws.len() as u64, "draw"),
+        cloud.share(),
+        cloud.rest("°")
     );
     text
 }

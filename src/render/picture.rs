@@ -66,7 +66,7 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
             scout_rays: scouts.film.rays,
             scout_non_finite: scouts.film.non_finite,
         }),
-        biased: settings.biased(),
+        biased: scene.biased(),
         denoised: None,
         seconds: Seconds {
             setup: rendering.setup.as_secs_f64(),
@@ -78,7 +78,7 @@ pub fn record(task: &Task, device: &DeviceInfo, rendering: &Rendering) -> Record
         rays: 0,
         non_finite: 0,
         mean: [0.0; 3],
-        standard_error: [0.0; 3],
+        standard_error: None,
         error_estimate: rendering.film.error_estimate(),
         randomisation: settings.render.randomisation(),
         randomisation_means: Vec::new(),

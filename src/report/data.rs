@@ -54,7 +54,8 @@ pub struct RunData {
     pub paths: u64,
     pub rays: u64,
     pub mean: [f64; 3],
-    pub standard_error: [f64; 3],
+    /// Absent where it is not known.
+    pub standard_error: Option<[f64; 3]>,
     /// Index into `groups`.
     pub group: Option<usize>,
     /// Index into `images`.
@@ -127,7 +128,8 @@ pub struct ReferenceData {
     pub samples: u64,
     pub image: Option<usize>,
     pub mean: [f64; 3],
-    pub standard_error: [f64; 3],
+    /// Absent where it is not known.
+    pub standard_error: Option<[f64; 3]>,
 }
 
 /// Linear light, half floats, R G B interleaved, little endian, in base64.

@@ -133,11 +133,28 @@ impl Over<'_> {
             Some(number) => Ok(&mut list[*number]),
             None => {
                 let names = list.iter().map(|group| group.name.as_str());
-                let note = nearest(item, names).map(|near| format!("did you mean `{near}`?"));
+                let note = match nearest(item, names.clone()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => there_are(names, count),
+                };
                 let message = format!("the scene has no material `{}`", short(item));
-                Err((message, note))
+                Err((message, Some(note)))
             }
         }
+    }
+}
+
+/// What a path may name instead of a material that is not there. Of many only the first are looked at: there may be a
+/// hundred thousand such paths.
+fn there_are<'n>(names: impl Iterator<Item = &'n str>, count: usize) -> String {
+    const MOST: usize = 8;
+    let names = names.take(MOST).map(|name| format!("`{}`", short(name)));
+    let shown = names.collect::<Vec<_>>().join(", ");
+    let remedy = "write new ones into the scene file";
+    match count {
+        0 => format!("it has none: {remedy}"),
+        1..=MOST => format!("it has {shown}; {remedy}"),
+        _ => format!("it has {shown} and {} more; {remedy}", count - MOST),
     }
 }
 

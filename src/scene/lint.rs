@@ -38,11 +38,21 @@ impl Scene {
     /// Those of [`Scene::unbounded`] alone, a line each: they make a picture that never becomes sharp, and who renders
     /// it should know.
     pub fn unbounded_lines(&self) -> Vec<String> {
+        self.lines_of(|lint| lint.survival())
+    }
+
+    /// Those of materials with values that another scattering has, a line each.
+    pub fn idle_materials(&self) -> Vec<String> {
+        self.lines_of(|lint| lint.idle_knobs())
+    }
+
+    /// What one part of the lint finds.
+    fn lines_of(&self, part: fn(&mut Lint<'_>)) -> Vec<String> {
         let mut lint = Lint {
             scene: self,
             found: Vec::new(),
         };
-        lint.survival();
+        part(&mut lint);
         let name = short(&self.source.name);
         let line = |finding: Finding| {
             let place = finding

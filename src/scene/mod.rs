@@ -9,6 +9,7 @@ mod build;
 mod draft;
 mod faults;
 mod finding;
+mod idle;
 mod lint;
 mod load;
 mod places;

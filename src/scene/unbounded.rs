@@ -7,8 +7,8 @@
 //! leave, or meet surfaces between with a factor below 1, the product over the hits of a path decides.
 
 use super::Scene;
-use crate::error::counted;
-use crate::knobs::{InterruptionRule, InterruptionWeight};
+use crate::knobs::{InterruptionRule, InterruptionWeight, short};
+use crate::wording::counted;
 
 /// Materials of one scene that are told of.
 const MOST: usize = 10;
@@ -32,6 +32,23 @@ impl Unbounded {
         self.albedo * self.albedo / self.survival
     }
 
+    /// What hits make of the second moment of a path's weight: each, and so many together.
+    pub fn effect(self, tests: Option<u32>) -> String {
+        let growth = self.growth();
+        let each = format!("{growth:.4}");
+        if each == "1.0000" {
+            return "no hit makes the second moment of a path's weight smaller".into();
+        }
+        let all = tests.map(|tests| {
+            let all = growth.powf(tests.into());
+            format!(", {} by up to {all:.3e}", counted(tests, "hit"))
+        });
+        format!(
+            "every hit multiplies the second moment of a path's weight by {each}{}",
+            all.unwrap_or_default()
+        )
+    }
+
     /// What is wrong, with the numbers, and the remedy.
     pub fn words(self, name: &str, scene: &Scene) -> (String, String) {
         let Self {
@@ -47,11 +64,9 @@ impl Unbounded {
                 "no weight can make up for paths that never go on: the picture lacks their light; set `survival` above 0".into(),
             );
         }
-        let hits = counted(tests as usize, "hit");
-        let all = self.growth().powf(tests.into());
         let message = format!(
-            "`{name}` has survival {survival}, not above the square of its albedo, {square:.4}: every hit multiplies the second moment of a path's weight by {:.4}, {hits} by up to {all:.3e}",
-            self.growth(),
+            "`{name}` has survival {survival}, not above the square of its albedo, {square:.4}: {}",
+            self.effect(Some(tests))
         );
         let bound = match scene.seems_closed() {
             true => {
@@ -69,6 +84,23 @@ impl Unbounded {
 }
 
 impl Scene {
+    /// Whether the expected picture differs from the light transport that the scene stands for.
+    pub fn biased(&self) -> bool {
+        !self.biases().is_empty()
+    }
+
+    /// What makes it differ: [`Settings::biases`](crate::knobs::Settings::biases), and materials at which every path
+    /// ends, which no weight makes up for.
+    pub fn biases(&self) -> Vec<String> {
+        let settings = self.settings.biases().into_iter().map(String::from);
+        let ends = self.unbounded().into_iter();
+        let ends = ends.filter(|one| one.survival == 0.0);
+        let name = |one: Unbounded| short(&self.materials[one.number].name);
+        settings
+            .chain(ends.map(|one| format!("materials.{}.survival = 0", name(one))))
+            .collect()
+    }
+
     /// The materials whose thresholds leave the variance without a bound, or lose light; none by another rule than
     /// compensated survival, nor where no hit is tested.
     pub fn unbounded(&self) -> Vec<Unbounded> {
@@ -96,7 +128,11 @@ impl Scene {
         let low = |one: &Unbounded| {
             one.survival < 1.0 && one.albedo > 0.0 && one.survival <= one.albedo * one.albedo
         };
-        all.filter(low).take(MOST).collect()
+        let mut low: Vec<_> = all.filter(low).collect();
+        // Lost light before noise: the list is cut.
+        low.sort_by_key(|one| one.survival > 0.0);
+        low.truncate(MOST);
+        low
     }
 
     /// Which materials a shape has.

@@ -100,13 +100,9 @@ fn axis(axis: &super::axis::Axis) -> AxisData {
 fn run(entry: &Entry) -> RunData {
     let number = |key: &str| entry.get(key).and_then(Value::as_u64).unwrap_or(0);
     let triple = |key: &str| {
-        let at = |index: usize| {
-            entry
-                .get(key)
-                .and_then(|value| value.get(index))
-                .and_then(Value::as_f64)
-        };
-        [0, 1, 2].map(|index| at(index).unwrap_or(0.0))
+        let all = entry.get(key)?;
+        let at = |index: usize| all.get(index).and_then(Value::as_f64);
+        Some([at(0)?, at(1)?, at(2)?])
     };
     let inside = |key: &str, name: &str| entry.get(key).and_then(|value| value.get(name));
     let swept = entry.get("swept").and_then(Value::as_object);
@@ -126,7 +122,7 @@ fn run(entry: &Entry) -> RunData {
             .unwrap_or(0.0),
         paths: number("paths"),
         rays: number("rays"),
-        mean: triple("mean"),
+        mean: triple("mean").unwrap_or_default(),
         standard_error: triple("standard_error"),
         group: None,
         image: None,

@@ -97,7 +97,7 @@ fn the_picture_says_how_it_was_sampled() {
         let of_pixel =
             |pixel: usize| f64::from(picture.variance[pixel][channel] / picture.samples[pixel]);
         let variance: f64 = (0..picture.pixels()).map(of_pixel).sum();
-        let stated = record.standard_error[channel];
+        let stated = record.standard_error.unwrap()[channel];
         assert!(
             (variance.sqrt() / pixels / stated - 1.0).abs() < 1e-4,
             "{stated}"

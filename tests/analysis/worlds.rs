@@ -245,7 +245,7 @@ fn record(samples: u64, seed: u64) -> Record {
         rays: 0,
         non_finite: 0,
         mean: [0.0; 3],
-        standard_error: [0.0; 3],
+        standard_error: Some([0.0; 3]),
         error_estimate: Default::default(),
         randomisation: None,
         randomisation_means: Vec::new(),

@@ -1,6 +1,6 @@
 //! Films whose samples are independent randomisation by randomisation only.
 
-use super::sample::{Folder, film, write};
+use super::sample::{Folder, film, record, write};
 use lampray::device::Block;
 use lampray::film::{Checkpoint, ErrorEstimate, Film, Picture, merge};
 use lampray::pack::{Rect, Tally};
@@ -101,6 +101,12 @@ fn one_randomisation_tells_nothing() {
     let film = of_samples(0..32, false);
     assert_eq!(film.variance(3), [0.0; 3]);
     assert_eq!(film.relative_error().picture, f64::INFINITY);
+    for shared in [false, true] {
+        let of =
+            |samples: u64| of_samples(0..samples, shared).picture(record(0..samples), None, None);
+        assert_eq!(of(32).record.standard_error, None);
+        assert!(of(64).record.standard_error.is_some());
+    }
     assert!(
         of_samples(0..64, false)
             .relative_error()
@@ -222,7 +228,8 @@ fn parts_make_the_whole_with_its_error() {
         {
             assert!((found - wanted).abs() < 1e-4 * wanted, "{found} {wanted}");
         }
-        let [found, wanted] = [&sum, &whole].map(|picture| picture.record.standard_error[1]);
+        let [found, wanted] =
+            [&sum, &whole].map(|picture| picture.record.standard_error.unwrap()[1]);
         assert!((found - wanted).abs() < 1e-4 * wanted, "{found} {wanted}");
         assert_eq!(
             sum.record.randomisation_means,

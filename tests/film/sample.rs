@@ -170,7 +170,7 @@ pub fn record(samples: std::ops::Range<u64>) -> Record {
         rays: 0,
         non_finite: 0,
         mean: [0.0; 3],
-        standard_error: [0.0; 3],
+        standard_error: Some([0.0; 3]),
         error_estimate: Default::default(),
         randomisation: None,
         randomisation_means: Vec::new(),

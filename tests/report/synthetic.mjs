@@ -81,7 +81,7 @@ function run(images, index, group, sampler, count, seed, path) {
     device: index % 2 ? "NVIDIA H200" : "llvmpipe (LLVM 15.0.6, 256 bits)",
     seconds, paths: count * SIZE * SIZE, rays: count * SIZE * SIZE * 7,
     mean: status === "ok" ? [0.44, 0.4, 0.36].map((value) => value * (1 + sampler.bias + 0.002 * normal(random))) : [null, null, null],
-    standard_error: status === "ok" ? [0.011, 0.01, 0.009].map((value) => value * noise) : [null, null, null],
+    standard_error: status === "ok" ? [0.011, 0.01, 0.009].map((value) => value * noise) : null,
     group: status === "ok" ? group : null,
     image: status === "ok" ? images.push(picture(`${sampler.name}, ${count} samples, seed ${seed}`, "radiance", SIZE, colour)) - 1 : null,
   };

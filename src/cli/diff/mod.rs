@@ -14,6 +14,7 @@ use crate::compare::{
 use crate::error::{Error, Result};
 use crate::film::{Format, RasterFile};
 use crate::place::Place;
+use crate::wording::named;
 use clap::{Args, ValueEnum};
 use gates::Gates;
 use report::report;
@@ -238,14 +239,14 @@ impl Command {
         {
             return Err(Error::Usage(format!(
                 "--map {}: that is one of the pictures",
-                map.display()
+                named(map)
             )));
         }
         if self.bless.is_some() && Format::of(reference) != Format::of(test) {
             return Err(Error::Usage(format!(
                 "--bless would make {} a copy of {}, which is of another format",
-                reference.display(),
-                test.display()
+                named(reference),
+                named(test)
             )));
         }
         Ok(())
@@ -366,7 +367,7 @@ fn bless(reference: &Path, test: &Path, output: Output) -> Result<()> {
         source,
     })?;
     Place::prepare(reference)?.write(|sink| sink.write_all(&bytes))?;
-    let (reference, test) = (reference.display(), test.display());
+    let (reference, test) = (named(reference), named(test));
     remark(&format!("{reference} is now a copy of {test}"), output);
     Ok(())
 }

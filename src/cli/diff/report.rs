@@ -2,6 +2,7 @@
 
 use crate::compare::verdict::{Estimate, Outcome, Pixels, Spot, Verdict, quantile};
 use crate::compare::{Comparison, Described, Figure, Judgement, Kinship, Metric};
+use crate::wording::{counted, named, signed};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -24,8 +25,10 @@ pub(super) fn report(comparison: &Comparison, reference: &Path, test: &Path) -> 
     if finite.first.is_some() {
         let _ = writeln!(
             text,
-            "not finite: {} pixels of A, {} of B; {} unlike",
-            finite.reference, finite.test, finite.apart
+            "not finite: {} of A, {} of B; {} unlike",
+            counted(finite.reference, "pixel"),
+            finite.test,
+            finite.apart
         );
     }
     if comparison.identical {
@@ -75,14 +78,18 @@ fn describe(text: &mut String, name: &str, path: &Path, image: &Described) {
     let _ = write!(
         text,
         "{name}  {}: {}, {} x {}",
-        path.display(),
+        named(path),
         image.format,
         image.width,
         image.height
     );
     if let Some(samples) = image.samples {
         let most = image.most_samples.map(|most| format!(" to {most}"));
-        let _ = write!(text, ", {samples}{} samples", most.unwrap_or_default());
+        let samples = match most {
+            Some(most) => format!("{samples}{most} samples"),
+            None => counted(samples, "sample"),
+        };
+        let _ = write!(text, ", {samples}");
     }
     if let Some(seed) = image.seed {
         let _ = write!(text, ", seed {seed}");
@@ -164,8 +171,10 @@ fn judge(text: &mut String, gate: &Judgement) {
         ),
         Some([failing, allowed]) => writeln!(
             text,
-            "{state}: {} is over {} in {failing} pixels, {allowed} allowed",
-            gate.metric, gate.limit
+            "{state}: {} is over {} in {}, {allowed} allowed",
+            gate.metric,
+            gate.limit,
+            counted(failing, "pixel")
         ),
     };
     if let Some(passing) = gate.passing {
@@ -258,8 +267,8 @@ fn spelled(estimate: &Estimate, alpha: f64) -> String {
     }
     let relative = |value: f64| 100.0 * value / estimate.reference.abs();
     format!(
-        "{x:+.3e} ± {y:.1e} ({:+.3} ± {:.3} % of A)",
-        relative(x),
+        "{x:+.3e} ± {y:.1e} ({} ± {:.3} % of A)",
+        signed(relative(x), 3),
         relative(y)
     )
 }
@@ -283,9 +292,9 @@ fn differences(text: &mut String, verdict: &Verdict) {
     if let Some(tiles) = verdict.tiles.as_ref().filter(|tiles| tiles.failing > 0) {
         let _ = writeln!(
             text,
-            "  {} of {} tiles of {} x {}; most clearly {}",
+            "  {} of {} of {} x {}; most clearly {}",
             tiles.failing,
-            tiles.count,
+            counted(tiles.count, "tile"),
             tiles.side,
             tiles.side,
             place(&tiles.worst, alpha)
@@ -302,8 +311,8 @@ fn failing_pixels(text: &mut String, pixels: &Pixels, alpha: f64) {
     if let (true, Some([x, y])) = (pixels.cluster_fails, pixels.cluster_at) {
         let _ = writeln!(
             text,
-            "  a cluster of {} pixels beyond {} standard errors at {x},{y}; by chance once in {:.1e} pictures",
-            pixels.largest_cluster,
+            "  a cluster of {} beyond {} standard errors at {x},{y}; by chance once in {:.1e} pictures",
+            counted(pixels.largest_cluster, "pixel"),
             pixels.far,
             1.0 / pixels.cluster_p
         );

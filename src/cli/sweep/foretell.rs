@@ -3,12 +3,13 @@
 use super::super::{Output, print};
 use super::words::spelled;
 use crate::device::Device;
-use crate::error::{Result, counted};
+use crate::error::Result;
 use crate::film::Stop;
 use crate::pack::Rect;
 use crate::render::{self, Task};
 use crate::scene::Scene;
 use crate::sweep::Experiment;
+use crate::wording::counted;
 use serde_json::json;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};

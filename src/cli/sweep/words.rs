@@ -1,9 +1,9 @@
 //! What is said of a sweep.
 
-use crate::error::counted;
 use crate::knobs::short;
 use crate::scene::Unbounded;
 use crate::sweep::{Experiment, Progress, ReferenceSummary, Step, Summary};
+use crate::wording::{counted, counted_as, named, were_there};
 use std::path::Path;
 use std::time::Duration;
 
@@ -23,12 +23,12 @@ pub(super) fn unbounded(experiment: &Experiment) -> Vec<String> {
     let all = experiment.plan.unbounded.iter();
     let warn = |(name, (worst, runs)): (&String, &(Unbounded, usize))| {
         format!(
-            "lampray: warning: materials.{}: survival is not above the square of its albedo in {}; at worst, {} and {:.4}, every hit multiplies the second moment of a path's weight by {:.4}; `lampray check` tells more of each",
+            "lampray: warning: materials.{}: survival is not above the square of its albedo in {}; at worst, {} and {:.4}, {}; `lampray check` tells more of each",
             short(name),
             counted(*runs, "run"),
             worst.survival,
             worst.albedo * worst.albedo,
-            worst.growth()
+            worst.effect(None)
         )
     };
     all.map(warn).collect()
@@ -48,7 +48,7 @@ pub(super) fn not_made(references: &ReferenceSummary) -> Vec<String> {
 
 pub(super) fn title(scene: &Path) -> String {
     let stem = scene.file_stem().unwrap_or_default();
-    stem.to_string_lossy().into_owned()
+    named(stem)
 }
 
 /// As it was typed, for a shell.
@@ -70,7 +70,8 @@ pub(crate) fn describe(progress: &Progress) -> String {
     let place = format!("{}/{}", progress.done + 1, progress.total);
     match progress.step {
         Step::Reference(reference) => {
-            format!("[reference {place}] {} samples a pixel", reference.samples)
+            let samples = counted_as(reference.samples, "sample a pixel", "samples a pixel");
+            format!("[reference {place}] {samples}")
         }
         Step::Run(run) => {
             let values = run.point.values.iter();
@@ -108,14 +109,10 @@ pub(super) fn ended(folder: &Path, runs: Summary, references: &ReferenceSummary)
         true => " (stopped early)",
         false => "",
     };
-    let were = |count: usize| match count {
-        1 => "1 was there".into(),
-        count => format!("{count} were there"),
-    };
     let own = match (references.made, references.found) {
         (0, 0) => String::new(),
-        (made, found) => format!("; references: {made} made, {}", were(found)),
+        (made, found) => format!("; references: {made} made, {}", were_there(found)),
     };
-    let (folder, made, skipped) = (folder.display(), counted(made, "run"), were(skipped));
+    let (folder, made, skipped) = (named(folder), counted(made, "run"), were_there(skipped));
     format!("{folder}: {made} made{state}, {skipped}, {failed} failed{own}")
 }

@@ -8,6 +8,7 @@ use crate::figures::build::{chance, difference, map, mean_of, ratio};
 use crate::figures::data::Data;
 use crate::figures::figure::*;
 use crate::theory::{Drawn, chi_square_above, integrate, share};
+use crate::wording::signed;
 use std::fmt::Write as _;
 
 const STUDY: &str = "fig7-penumbra";
@@ -338,12 +339,12 @@ fn crossing(profile: &Profile) -> Option<String> {
     let predicted =
         worst.predicted * (1.0 - worst.predicted) / (worst.predicted - worst.truth).powi(2);
     Some(format!(
-        "Penumbra, as published, {}: furthest off at {:.2} of the disc, by {} of the free light (theory {:+.1} %); one pixel needs \
+        "Penumbra, as published, {}: furthest off at {:.2} of the disc, by {} of the free light (theory {} %); one pixel needs \
          {} samples (theory {}) for that to equal its noise.",
         WAYS[profile.way].2,
         worst.h,
         percent(size),
-        100.0 * (worst.predicted - worst.truth),
+        signed(100.0 * (worst.predicted - worst.truth), 1),
         number(samples),
         number(predicted)
     ))

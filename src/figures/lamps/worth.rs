@@ -4,10 +4,11 @@ use super::RULES;
 use crate::analysis::Quantity;
 use crate::analysis::words::{list, number};
 use crate::error::Result;
-use crate::figures::build::{map, ratio};
+use crate::figures::build::ratio;
 use crate::figures::data::{Data, mean, variance};
 use crate::figures::figure::*;
 use crate::report::data::Interval;
+use crate::wording::signed;
 
 const ROOMS: [(&str, &str); 2] = [
     ("fig7-small-lamp", "small lamp"),
@@ -68,8 +69,9 @@ impl Worth {
     pub fn table(&self) -> Table {
         let row = |row: &Row| {
             let percent = |of: Interval| {
-                let of = map(of, |value| 100.0 * value);
-                format!("{:+.1} % ({:+.1} to {:+.1})", of.value, of.low, of.high)
+                let [value, low, high] =
+                    [of.value, of.low, of.high].map(|part| signed(100.0 * part, 1));
+                format!("{value} % ({low} to {high})")
             };
             let plain = |of: Interval| {
                 format!(

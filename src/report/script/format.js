@@ -7,8 +7,9 @@ function superscript(whole) {
   return [...String(whole)].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[digit])).join("");
 }
 
+/** With a true minus; what has been rounded to zero has no sign. */
 function withMinus(text) {
-  return text.replace("-", "−");
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
 }
 
 function isMissing(value) {

@@ -97,6 +97,7 @@ function fillFacts() {
 
 /** R, G and B with their standard errors. */
 function referenceMean({ mean, standard_error: errors }) {
+  if (isMissing(errors)) return mean.map((value, at) => `${"RGB"[at]} ${number(value)}`).join(", ");
   const parts = mean.map((value, at) => intervalParts({ value, low: value - errors[at], high: value + errors[at] }));
   return parts.map(({ value, half }, at) => `${"RGB"[at]} ${value} ± ${half}`).join(", ");
 }

@@ -11,14 +11,14 @@ function statusText(status) {
   return STATES[status]?.text ?? status;
 }
 
-/** Mean of three numbers, or none where one is missing. */
+/** Mean of three numbers, or none where they or one of them are missing. */
 function meanOf(channels) {
-  return channels.some(isMissing) ? null : (channels[0] + channels[1] + channels[2]) / 3;
+  return isMissing(channels) || channels.some(isMissing) ? null : (channels[0] + channels[1] + channels[2]) / 3;
 }
 
 /** Mean radiance of a run; the channels share their paths, so their errors are not independent. */
 function meanCell(run) {
-  const [mean, error] = [meanOf(run.mean), meanOf(run.standard_error)];
+  const [mean, error] = [meanOf(run.mean), meanOf(run.standard_error) ?? NaN];
   if (mean === null) return NOTHING;
   const { value, half } = intervalParts({ value: mean, low: mean - error, high: mean + error });
   const channels = run.mean.map((each) => number(each, 5)).join(", ");
@@ -39,7 +39,7 @@ function runColumns() {
     numberColumn("paths", "Paths", (run) => run.paths, count, { shown: false }),
     numberColumn("rays", "Rays", (run) => run.rays, count, { shown: false }),
     numberColumn("speed", "Rays a second", perSecond, number, { shown: false }),
-    { ...numberColumn("mean", "Mean", (run) => meanOf(run.mean), number, { help: "Mean radiance, with the channels' mean standard error" }), cell: meanCell, heads: ["Mean R", "Mean G", "Mean B", "SE R", "SE G", "SE B"], csv: (run) => [...run.mean, ...run.standard_error] },
+    { ...numberColumn("mean", "Mean", (run) => meanOf(run.mean), number, { help: "Mean radiance, with the channels' mean standard error" }), cell: meanCell, heads: ["Mean R", "Mean G", "Mean B", "SE R", "SE G", "SE B"], csv: (run) => [...run.mean, ...(run.standard_error ?? [null, null, null])] },
     textColumn("device", "Device", (run) => run.device, { look: "device" }),
     textColumn("error", "Error", (run) => run.error, { look: "words", absent: () => !data.runs.some((run) => run.error) }),
     { key: "pictures", look: "pictures", title: "Picture", cell: (run) => pictureButtons([["view", run.image]]) },

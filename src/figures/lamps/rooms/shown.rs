@@ -7,6 +7,7 @@ use crate::figures::data::{CASES, Data};
 use crate::figures::figure::*;
 use crate::figures::lamps::{CASE_NAMES, RULES};
 use crate::report::data::Interval;
+use crate::wording::{counted, signed};
 use std::fmt::Write as _;
 
 fn has_numbers(group: &BarGroup) -> bool {
@@ -29,14 +30,15 @@ pub fn pictures(data: &Data) -> Result<Pictures> {
                 let group = group(data, room, preset, case)?;
                 let bias = group.regions[0].relative_bias;
                 let note = bias.map_or(String::new(), |bias| {
-                    format!("{:+.2} ± {:.2} %", 100.0 * bias.value, 196.0 * bias.error)
+                    let value = signed(100.0 * bias.value, 2);
+                    format!("{value} ± {:.2} %", 196.0 * bias.error)
                 });
                 cells.push(shown(group, question.size(), 0.0, note));
             }
             let reference = group(data, room, preset, 0)?.reference;
             if let Some(reference) = reference.and_then(|index| question.references().get(index)) {
                 let picture = reference.picture();
-                let note = format!("{} samples", picture.record.samples);
+                let note = counted(picture.record.samples, "sample");
                 let mut shown = build::picture(&picture.mean, question.size(), 0.0, note);
                 if preset == RULES[0].0 {
                     let regions = question.regions().iter().skip(1);
@@ -124,11 +126,9 @@ impl Rooms {
         let row = |cell: &Cell| {
             let percents = cell.against.map(|difference| {
                 let interval = difference.interval();
-                let [low, high] = [interval.low, interval.high].map(|end| 100.0 * end);
-                format!(
-                    "{:+.2} % ({low:+.2} to {high:+.2})",
-                    100.0 * difference.value
-                )
+                let [value, low, high] = [difference.value, interval.low, interval.high]
+                    .map(|part| signed(100.0 * part, 2));
+                format!("{value} % ({low} to {high})")
             });
             let [first, third] = percents;
             vec![
