@@ -104,10 +104,7 @@ impl Run<'_> {
             true => session.denoise(&mut device, &rendering, denoised, record.as_mut()),
             false => Ok(false),
         };
-        let enough = matches!(
-            rendering.stopped,
-            None | Some(Stop::TargetError | Stop::Allotted)
-        );
+        let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
         let done = enough && traced.is_ok() && written.is_ok() && matches!(smoothed, Ok(true));
         let kept = session.keep(keeper, &rendering, done);
         if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
@@ -196,23 +193,17 @@ impl Session<'_> {
         traced
     }
 
-    /// Says where a render that had all it was to have has a larger error than was asked for.
+    /// Says where a render that had all its samples has a larger error than was asked for.
     fn tell_of_error(&self, rendering: &Rendering) {
-        let over = rendering.complete() || rendering.stopped == Some(Stop::Allotted);
-        let Some(target) = self.run.rules.target_error.filter(|_| over) else {
+        let Some(target) = self.run.rules.target_error else {
             return;
         };
         let found = rendering.film.relative_error();
-        if found.reaches(target) {
+        if !rendering.complete() || found.reaches(target) {
             return;
         }
-        let all = self.task.samples.end - self.task.samples.start;
-        let remedy = match rendering.film.counts.contains(&all) {
-            true => "give it more samples",
-            false => "its scouts foresaw less: ask for a smaller one",
-        };
         let text = format!(
-            "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; {remedy}",
+            "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; give it more samples",
             found.picture, found.pixels
         );
         remark(&text, self.output);
@@ -344,7 +335,6 @@ fn summary(record: &Record) -> String {
         None if record.complete => "",
         None => " so far",
         Some(Stop::TargetError) => " (error as asked for)",
-        Some(Stop::Allotted) => " (all that was allotted)",
         Some(Stop::Time) => " (time is up)",
         Some(Stop::Signal) => " (stopped)",
     };

@@ -308,7 +308,7 @@ fn gather(
         }
         if spent {
             let Some(work) = rendering.next_work(task) else {
-                rendering.stopped = rendering.allotted(task);
+                rendering.stopped = (!rendering.complete()).then_some(Stop::TargetError);
                 return true;
             };
             // Who no longer listens has failed, and says so when it is joined.

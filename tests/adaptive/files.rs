@@ -52,7 +52,7 @@ const RENDER: &[&str] = &[
     "--spp",
     "5000",
     "--target-error",
-    "0.15",
+    "0.06",
 ];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
@@ -76,12 +76,12 @@ fn the_picture_says_how_it_was_sampled() {
     let folder = stage.path();
     let told = ran(folder, &with(&["-o", "a.exr", "--json"]));
     let json: Value = serde_json::from_str(told.lines().next().expect("JSON")).expect("JSON");
-    assert_eq!(json["adaptive"]["rule"], "scouts");
+    assert_eq!(json["adaptive"]["rule"], "shape");
     let picture = read(folder, "a.exr");
     let record = &picture.record;
     let adaptive = record.adaptive.as_ref().expect("it is adaptive");
     let counts = || picture.samples.iter().map(|count| *count as u64);
-    assert_eq!(record.target_error, Some(0.15));
+    assert_eq!(record.target_error, Some(0.06));
     assert_eq!(Some(record.samples), counts().min());
     assert_eq!(Some(record.sample_range[1]), counts().max());
     assert_eq!(record.paths, counts().sum::<u64>());
@@ -91,7 +91,7 @@ fn the_picture_says_how_it_was_sampled() {
     );
     assert_eq!(adaptive.allowed, [[0, 5000]]);
     assert!(adaptive.scout_paths > 0 && adaptive.scout_rays > adaptive.scout_paths);
-    assert!(matches!(record.stopped, Some(Stop::TargetError | Stop::Allotted)) && !record.complete);
+    assert!(record.stopped == Some(Stop::TargetError) && !record.complete);
     let pixels = picture.pixels() as f64;
     for channel in 0..3 {
         let of_pixel =
@@ -172,7 +172,7 @@ fn no_checkpoint_of_the_other_kind_is_gone_on_from() {
         65,
     );
     assert!(
-        told.contains("how the samples are shared out is scouts in the checkpoint, and even now"),
+        told.contains("how the samples are shared out is shape in the checkpoint, and even now"),
         "{told}"
     );
 }

@@ -65,6 +65,15 @@ impl Work {
         !self.taken.iter().enumerate().any(short)
     }
 
+    /// Whether it can be the rest of such work: no pixel has more than its tile is to have, nor a part of a run.
+    pub(super) fn is_possible(&self) -> bool {
+        let fits = |(pixel, count): (usize, &u64)| {
+            *count <= self.wanted[self.tiles.of_pixel(pixel)]
+                && (*count == 0 || rungs::whole(&self.samples, *count) == *count)
+        };
+        self.taken.iter().enumerate().all(fits)
+    }
+
     /// Learns how long a block took.
     pub(in super::super) fn learn(&mut self, block: &Block, took: Duration) {
         let is_first = block.first_sample == self.samples.start;
@@ -158,9 +167,9 @@ mod tests {
     /// What tiles may want: anything up to a few thousand, in no order.
     fn wants(samples: &Range<u64>) -> Vec<u64> {
         let tiles = Tiles::of(REGION).count();
-        let count = |tile: usize| rungs::reach((tile * 7919 % 1500) as f64, 1 << 40);
+        let rung = |tile: usize| rungs::reach(0, (tile * 7919 % 1500) as f64, 1 << 40);
         (0..tiles)
-            .map(|tile| rungs::whole(samples, count(tile)))
+            .map(|tile| rungs::whole(samples, rungs::at(rung(tile))))
             .collect()
     }
 
