@@ -24,6 +24,8 @@ pub(crate) struct Run<'a> {
     pub outputs: Vec<PathBuf>,
     pub region: Rect,
     pub samples: Range<u64>,
+    /// Of each pixel, where that is known: see [`Task::counts`].
+    pub counts: Option<Vec<u64>>,
     pub aovs: Vec<Aov>,
     /// How to make the pictures beside the outputs, where they are wanted.
     pub denoise: Option<Denoising>,
@@ -74,6 +76,7 @@ impl Run<'_> {
             denoised: self.denoise.is_some(),
             target_error: self.rules.target_error,
             adaptive: self.rules.adaptive,
+            counts: self.counts.clone(),
             ..Task::new(self.scene)
         };
         task.refuse_cut()?;

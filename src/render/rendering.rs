@@ -151,8 +151,12 @@ impl Rendering {
             .is_some_and(|target| self.film.relative_error().reaches(target))
     }
 
-    /// What an adaptive render does next, where all before is done; none where that was all.
+    /// What a render that is given its work piece by piece does next, where all before is done; none where that was
+    /// all.
     pub(super) fn next_work(&mut self, task: &Task) -> Option<Work> {
+        if let Some(work) = task.counted(&self.film) {
+            return (!work.is_empty()).then_some(work);
+        }
         adaptive::next(&task.terms()?, &self.film, self.scouts.as_mut()?)
     }
 }

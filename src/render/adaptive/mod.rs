@@ -45,7 +45,7 @@ mod shape;
 mod smooth;
 mod work;
 
-pub(super) use work::Work;
+pub(super) use work::{Goals, Work};
 
 use crate::film::{Film, SCOUTS, Scouts, Tiles};
 use crate::pack::{RUN_LENGTH, Rect};
@@ -98,7 +98,7 @@ fn of_picture(terms: &Terms, film: &Film, scouts: &Scouts) -> Work {
         film.region,
         terms.samples.clone(),
         film.counts.clone(),
-        scouts.wanted.clone(),
+        Goals::Tiles(Tiles::of(film.region), scouts.wanted.clone()),
         rungs::FIRST,
     )
 }
@@ -110,7 +110,10 @@ fn of_scouts(scouts: &Scouts) -> Work {
         film.region,
         SCOUTS..u64::MAX,
         film.counts.clone(),
-        vec![scouts.asked; scouts.wanted.len()],
+        Goals::Tiles(
+            Tiles::of(film.region),
+            vec![scouts.asked; scouts.wanted.len()],
+        ),
         // Nobody sees them on their way.
         u64::MAX,
     )
