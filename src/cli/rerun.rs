@@ -7,7 +7,7 @@ use crate::device::DeviceKind;
 use crate::error::Error;
 use crate::film::{AdaptiveRecord, Aov, Record, Stop, is_png, read_exr, read_record};
 use crate::pack::Rect;
-use crate::render::{scene_hash, whole};
+use crate::render::{ADAPTIVE_RULE, scene_hash, whole};
 use crate::scene::{Assignment, Scene};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -118,15 +118,14 @@ fn region_of(image: &Path, record: &Record, scene: &Scene) -> Result<Rect> {
 }
 
 /// The samples of each pixel, where they follow from nothing that can be done again: the render was stopped when some
-/// pixels had more than others.
+/// pixels had more than others, or shared them out by a rule of another version.
 fn counts_of(image: &Path, record: &Record, region: Rect) -> Result<Option<Vec<u64>>> {
     let [first, end] = record.sample_range;
     let all_alike = record.samples == end.saturating_sub(first);
-    let by_rule = record.complete || record.stopped == Some(Stop::TargetError);
-    let follows = if record.adaptive.is_some() {
-        by_rule
-    } else {
-        all_alike
+    let ended = record.complete || record.stopped == Some(Stop::TargetError);
+    let follows = match &record.adaptive {
+        Some(adaptive) => ended && adaptive.rule == ADAPTIVE_RULE,
+        None => all_alike,
     };
     if follows || record.ranges().len() > 1 {
         return Ok(None);
@@ -135,7 +134,7 @@ fn counts_of(image: &Path, record: &Record, region: Rect) -> Result<Option<Vec<u
         return damaged(
             image,
             format!(
-                "it was stopped when some of its pixels had {} samples and others up to {}, and a PNG does not say which: give the EXR",
+                "some of its pixels have {} samples and others up to {}, and a PNG does not say which: give the EXR",
                 record.samples,
                 end.saturating_sub(first)
             ),

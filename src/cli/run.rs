@@ -45,13 +45,13 @@ pub(crate) struct StopRules {
     #[arg(long, value_name = "SECONDS", value_parser = super::options::seconds, allow_negative_numbers = true)]
     time: Option<Duration>,
     /// Stop when the standard error of the mean of the picture, relative to it, is at most E and so are those of
-    /// 95 % of the pixels; looked at after 64 samples and then each eighth more. render.samples stays the most
+    /// 95 % of the pixels; looked at after 64 samples and then at numbers an eighth apart. More samples go where the
+    /// error is, as scouts foresee it: samples that are not in the picture. render.samples stays the most
     #[arg(long, value_name = "E", value_parser = super::options::relative_error, allow_negative_numbers = true)]
     target_error: Option<f64>,
-    /// Take the samples for --target-error where the error is, as scouts foresee it: samples that are not in the
-    /// picture, so that it has no bias. What they foresee may miss the target, and that is said
+    /// Give every pixel the same number of samples under --target-error
     #[arg(long, requires = "target_error")]
-    adaptive: bool,
+    even: bool,
 }
 
 impl StopRules {
@@ -59,7 +59,6 @@ impl StopRules {
     pub(crate) fn adaptive(target_error: f64) -> Self {
         Self {
             target_error: Some(target_error),
-            adaptive: true,
             ..Self::default()
         }
     }
@@ -75,7 +74,7 @@ impl Run<'_> {
             features: !self.aovs.is_empty(),
             denoised: self.denoise.is_some(),
             target_error: self.rules.target_error,
-            adaptive: self.rules.adaptive,
+            adaptive: self.rules.target_error.is_some() && !self.rules.even,
             counts: self.counts.clone(),
             ..Task::new(self.scene)
         };

@@ -11,6 +11,7 @@ mod picture;
 mod plan;
 mod rendering;
 
+pub use adaptive::RULE as ADAPTIVE_RULE;
 pub use choose::{Chosen, VULKAN_HINT, devices, open, open_unexamined, word};
 pub use endure::{Spares, endure};
 pub use memory::{memory_estimate, refuse_too_large};
@@ -164,7 +165,7 @@ impl Task<'_> {
             return Ok(());
         }
         Err(Error::Usage(format!(
-            "--adaptive samples must be independent: render.sequence is {}; leave out --adaptive, or set render.sequence=independent",
+            "--target-error shares out samples, which must be independent for that: render.sequence is {}; add --even, or set render.sequence=independent",
             render.sequence
         )))
     }

@@ -40,7 +40,6 @@ fn stage() -> TempDir {
 const RENDER: &[&str] = &[
     "render",
     "s.toml",
-    "--adaptive",
     "--device",
     "cpu",
     "--width",
@@ -57,12 +56,6 @@ const RENDER: &[&str] = &[
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [RENDER, more].concat()
-}
-
-/// The same without the wish for adaptive samples.
-fn even<'a>(words: &[&'a str]) -> Vec<&'a str> {
-    let words = words.iter().copied();
-    words.filter(|word| *word != "--adaptive").collect()
 }
 
 fn read(folder: &Path, name: &str) -> Picture {
@@ -118,14 +111,14 @@ fn the_picture_says_how_it_was_sampled() {
 fn even_sampling_is_a_choice() {
     let stage = stage();
     let folder = stage.path();
-    ran(folder, &even(&with(&["-o", "even.exr"])));
+    ran(folder, &with(&["-o", "even.exr", "--even"]));
     let even = read(folder, "even.exr");
     assert!(even.record.adaptive.is_none());
     assert!(even.samples.iter().all(|count| *count == even.samples[0]));
     ran(folder, &with(&["-o", "a.exr", "--seed", "7"]));
     let told = ran(folder, &["diff", "even.exr", "a.exr", "--margin", "0.05"]);
     assert!(told.contains(" to ") && told.contains("samples"), "{told}");
-    let told = refused(folder, &["render", "s.toml", "--adaptive"], 2);
+    let told = refused(folder, &["render", "s.toml", "--even"], 2);
     assert!(told.contains("--target-error"), "{told}");
 }
 
@@ -168,7 +161,7 @@ fn no_checkpoint_of_the_other_kind_is_gone_on_from() {
     ran(folder, &[&RENDER[..RENDER.len() - 2], &long].concat());
     let told = refused(
         folder,
-        &even(&[&RENDER[..RENDER.len() - 2], &long, &["--resume"]].concat()),
+        &[&RENDER[..RENDER.len() - 2], &long, &["--resume", "--even"]].concat(),
         65,
     );
     assert!(
@@ -188,4 +181,31 @@ fn no_error_at_all_is_refused() {
         );
         assert!(told.contains("above 0 and below 1"), "{told}");
     }
+}
+
+/// Samples that are not independent cannot be shared out, and both ways out are said.
+#[test]
+fn sequences_are_sampled_evenly() {
+    let stage = stage();
+    let folder = stage.path();
+    let sobol = [
+        "render",
+        "s.toml",
+        "--device",
+        "cpu",
+        "--width",
+        "16",
+        "--height",
+        "16",
+        "--set",
+        "render.sequence=sobol",
+        "--target-error",
+        "0.5",
+    ];
+    let told = refused(folder, &sobol, 2);
+    assert!(
+        told.contains("add --even") && told.contains("render.sequence=independent"),
+        "{told}"
+    );
+    ran(folder, &[&sobol[..], &["--even"]].concat());
 }
