@@ -7,8 +7,9 @@ use lampray::device::Device;
 use lampray::film::{Checkpoint, Film, Scouts, Stop};
 use lampray::pack::Rect;
 use lampray::render::{Plan, Rendering, Spares, Task, endure, go_on_by, record};
-use lampray::scene::Scene;
+use lampray::scene::{Assignment, Scene};
 use std::ops::ControlFlow;
+use std::path::Path;
 
 /// Three tiles by two, those at the edges cut; some need a few times as many samples as others.
 fn scene() -> Scene {
@@ -91,6 +92,48 @@ fn tiles_get_what_they_need() {
     assert!(scouts.asked > 16, "{}", scouts.asked);
     assert_eq!(rendering.stopped, Some(Stop::TargetError));
     assert!(film.relative_error().reaches(TARGET));
+}
+
+/// Pictures of other samples by the same scouts share them out alike wherever they climbed as far: no sample of a
+/// picture has a say in what its own tile gets beside the others.
+#[test]
+fn tiles_share_by_their_scouts_alone() {
+    let small = ["image.width=48", "image.height=48", "render.max_bounces=3"];
+    let sets: Vec<_> = small
+        .iter()
+        .map(|set| Assignment::parse(set).expect("a knob"))
+        .collect();
+    let path = Path::new("scenes/cornell-small-lamp.toml");
+    let scene = Scene::load(path, &sets).expect("a scene");
+    let of_range = |number: u64| {
+        let task = Task {
+            target_error: Some(0.07),
+            samples: number << 40..(number << 40) + 2000,
+            adaptive: true,
+            ..Task::new(&scene)
+        };
+        sums(&in_one_go(&mut Cpu::new(), &task, 1 << 22)).1
+    };
+    let all: Vec<_> = (0..5).map(of_range).collect();
+    let mut alike = 0;
+    for (one, other) in all.iter().zip(&all[1..]) {
+        assert!(one.asked == 16 && one.film == other.film, "{}", one.asked);
+        // Before there are scouts all tiles climb alike: what they had then says nothing.
+        let least = |scouts: &Scouts| scouts.wanted.iter().copied().min();
+        let before = least(one).max(least(other)).expect("tiles");
+        let climbed = |scouts: &Scouts| -> Vec<u64> {
+            scouts
+                .wanted
+                .iter()
+                .map(|count| *count.max(&before))
+                .collect()
+        };
+        if one.rung == other.rung {
+            assert_eq!(climbed(one), climbed(other));
+            alike += climbed(one).iter().filter(|count| **count > before).count();
+        }
+    }
+    assert!(alike > 8, "{alike} tiles of pictures that climbed as far");
 }
 
 /// Of any block size, on either device.
