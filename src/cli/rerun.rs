@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 ///
 /// Takes the scene, every knob, the crop and the samples from the PNG or EXR. On the same device,
 /// driver and version the pixels are the same, byte for byte. Of a render that was stopped when some pixels had more
-/// samples than others the EXR says how many each gets; a PNG of it is refused. Of a denoised picture both are made again: the picture
-/// that it was made of, and NAME.denoised.png or NAME.denoised.exr beside it.
+/// samples than others the EXR says how many each gets; a PNG of it is refused. Of a denoised picture both are made
+/// again: the picture that it was made of, and NAME.denoised.png or NAME.denoised.exr beside it.
 #[derive(Args)]
 #[command(after_help = "Example:\n  lampray rerun cornell.png -o again.exr")]
 pub(crate) struct Command {

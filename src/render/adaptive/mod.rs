@@ -150,7 +150,8 @@ fn climb(terms: &Terms, film: &Film, scouts: &mut Scouts) -> Option<()> {
     let last = foreseen(scouts.rung, error.beside(terms.target), all);
     let rung = scouts.rung + (last - scouts.rung).div_ceil(2).max(1);
     let asked = scouts_for(scouts.asked, rungs::at(last), rungs::at(rung));
-    if asked > scouts.asked {
+    // A single tile has none to share with.
+    if asked > scouts.asked && scouts.wanted.len() > 1 {
         scouts.asked = asked;
         return Some(());
     }
