@@ -197,11 +197,11 @@ impl Session<'_> {
 
     /// Says where a render that had all its samples has a larger error than was asked for.
     fn tell_of_error(&self, rendering: &Rendering) {
-        let Some(target) = self.run.rules.target_error else {
+        let Some(target) = self.run.rules.target_error.filter(|_| rendering.complete()) else {
             return;
         };
         let found = rendering.film.relative_error();
-        if !rendering.complete() || found.reaches(target) {
+        if found.reaches(target) {
             return;
         }
         let text = format!(

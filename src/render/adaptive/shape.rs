@@ -11,13 +11,14 @@
 //!
 //! Scouts are few, and the variance of few samples is itself so uncertain that its upper quantiles are too high:
 //! a pixel's need is that of its neighbourhood (`smooth.rs`). What they miss makes a shape that is dearer than it
-//! was foreseen to be. Two bounds hold that: no tile gets less than an eighth of what another gets, and sampling
-//! evenly wins unless a tenth is to be saved, more in pictures of few tiles.
+//! was foreseen to be. Two bounds hold that: no tile is more than [`MOST_LAG`] rungs behind another, and sampling evenly
+//! wins unless a tenth is to be saved, more in pictures of few tiles.
 
 use super::smooth::smooth;
 use crate::film::{Film, QUANTILE, Tiles, needed_samples};
 
-/// The most rungs that a tile is behind another: 1.125^18 is 8.3.
+/// The most rungs that a tile is behind another: a factor of 8.3, 1.125^18, and of up to 14 on the lowest rungs, whose
+/// steps are whole runs.
 pub(super) const MOST_LAG: u64 = 18;
 /// From rung to rung.
 const STEP: f64 = 1.125;
@@ -207,8 +208,8 @@ mod tests {
         assert_eq!(lags(&film(5, 5, |_, _| 1.0)), [0]);
     }
 
-    /// Four columns of tiles, each twice as noisy as the one before: more for more noise, and no tile an eighth of
-    /// another.
+    /// Four columns of tiles, each twice as noisy as the one before: more for more noise, and no tile
+    /// further behind than that.
     #[test]
     fn noisy_tiles_get_more() {
         let lags = lags(&film(64, 64, |x, _| 0.25 * (1 << (x / 16)) as f32));
