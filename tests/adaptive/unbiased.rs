@@ -111,7 +111,7 @@ fn variance(values: &[f64]) -> f64 {
 
 /// Bright paths so rare that a first look often has seen too few of them. The naive rule then stops too early just
 /// where it is too dark. Scouts err as often, but in no way that goes with the picture, and one error of all pixels
-/// ends the climb: what is left of a bias is that of even sampling, below a hundredth.
+/// ends the climb: what is left of a bias is of the kind of even sampling's, and below a hundredth.
 #[test]
 fn rare_bright_paths_are_not_lost() {
     for bench in benches() {

@@ -29,11 +29,11 @@
 //! the scouts, and add up by `merge`, weighted by counts.
 //!
 //! The rungs are not fixed: the picture's error ends the climb, as it ends even sampling, and where it is low by
-//! chance, since rare bright paths were missed, the picture ends early. This one number is of all
-//! pixels together, so that what one pixel met hardly moves it, and the bias that is left is that of even sampling
-//! with a target, which is small and shrinks with the number of pixels. `tests/adaptive` measures it beside the
-//! naive rule's, which ends each tile by the tile's own error: there it is a tile's few pixels that decide, and the
-//! tile ends too early just where it is too dark.
+//! chance, since rare bright paths were missed, the picture ends early. This one number is of all pixels together, so
+//! that what one pixel met hardly moves it, and the bias that is left is of the kind that even sampling with a target
+//! has, and perhaps a little more, where a few pixels of a tile that got too little decide. `tests/adaptive` measures
+//! both beside the naive rule's, which ends each tile by the tile's own error: there a few pixels always decide, and
+//! the tile ends too early just where it is too dark.
 //!
 //! # How it is run
 //!
