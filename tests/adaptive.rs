@@ -7,6 +7,7 @@ mod adaptive {
     mod bytes;
     mod extreme;
     mod files;
+    mod stopped;
     mod unbiased;
 }
 

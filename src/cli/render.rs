@@ -74,6 +74,7 @@ impl Command {
             outputs,
             region,
             samples,
+            counts: None,
             aovs: self.aov,
             denoise: self.denoise.wanted(),
             device: &self.device,

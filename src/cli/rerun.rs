@@ -5,9 +5,9 @@ use super::signal::Watch;
 use super::{Output, Result, note};
 use crate::device::DeviceKind;
 use crate::error::Error;
-use crate::film::{Aov, Record, Stop, read_record};
+use crate::film::{AdaptiveRecord, Aov, Record, Stop, is_png, read_exr, read_record};
 use crate::pack::Rect;
-use crate::render::{scene_hash, whole};
+use crate::render::{ADAPTIVE_RULE, scene_hash, whole};
 use crate::scene::{Assignment, Scene};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,9 @@ use std::path::{Path, PathBuf};
 /// Render again from the record inside a picture
 ///
 /// Takes the scene, every knob, the crop and the samples from the PNG or EXR. On the same device,
-/// driver and version the pixels are the same, byte for byte. Of a denoised picture both are made again: the picture
-/// that it was made of, and NAME.denoised.png or NAME.denoised.exr beside it.
+/// driver and version the pixels are the same, byte for byte. Of a render that was stopped when some pixels had more
+/// samples than others the EXR says how many each gets; a PNG of it is refused. Of a denoised picture both are made
+/// again: the picture that it was made of, and NAME.denoised.png or NAME.denoised.exr beside it.
 #[derive(Args)]
 #[command(after_help = "Example:\n  lampray rerun cornell.png -o again.exr")]
 pub(crate) struct Command {
@@ -45,7 +46,8 @@ impl Command {
             ));
         }
         let region = region_of(&self.image, &record, &scene)?;
-        let [first, end] = whole_range(&self.image, &record)?;
+        let counts = counts_of(&self.image, &record, region)?;
+        let [first, end] = whole_range(&self.image, &record, counts.is_some())?;
         let denoise = record.denoised.map(|denoised| denoised.by);
         if denoise.is_some_and(|by| !by.is_sound()) {
             return damaged(
@@ -53,28 +55,10 @@ impl Command {
                 "its record says how it was denoised, and that cannot be".into(),
             );
         }
-        let rules = match (&record.adaptive, record.target_error) {
-            (Some(_), Some(target)) => StopRules::adaptive(target),
+        let rules = match (&record.adaptive, record.target_error, &counts) {
+            (Some(_), Some(target), None) => StopRules::adaptive(target),
             _ => StopRules::default(),
         };
-        let even = record.adaptive.is_none();
-        if let (Some(Stop::Time | Stop::Signal), false, false) =
-            (record.stopped, even, output.quiet)
-        {
-            note(&format!(
-                "warning: {} was stopped before its scouts' samples were all taken: rendering all of them",
-                self.image.display()
-            ));
-        }
-        if even && record.samples < end - first && !output.quiet {
-            note(&format!(
-                "warning: {} was stopped when some of its pixels had {} samples and others up to {}: rendering {} of each",
-                self.image.display(),
-                record.samples,
-                end - first,
-                end - first
-            ));
-        }
         let device = device_of(&self.device, &record);
         let (outputs, aovs) = (self.outputs, self.aov);
         Run {
@@ -82,6 +66,7 @@ impl Command {
             outputs,
             region,
             samples: first..end,
+            counts,
             aovs,
             denoise,
             device: &device,
@@ -132,19 +117,62 @@ fn region_of(image: &Path, record: &Record, scene: &Scene) -> Result<Rect> {
     }
 }
 
-/// The range of samples, where it is one; of an adaptive render the range that its pixels could take from.
-fn whole_range(image: &Path, record: &Record) -> Result<[u64; 2]> {
-    let ranges = match &record.adaptive {
-        Some(adaptive) => adaptive.allowed.clone(),
-        None => record.ranges(),
+/// The samples of each pixel, where they follow from nothing that can be done again: the render was stopped when some
+/// pixels had more than others, or shared them out by a rule of another version.
+fn counts_of(image: &Path, record: &Record, region: Rect) -> Result<Option<Vec<u64>>> {
+    let [first, end] = record.sample_range;
+    let all_alike = record.samples == end.saturating_sub(first);
+    let ended = record.complete || record.stopped == Some(Stop::TargetError);
+    let follows = match &record.adaptive {
+        Some(adaptive) => ended && adaptive.rule == ADAPTIVE_RULE,
+        None => all_alike,
     };
+    if follows || record.ranges().len() > 1 {
+        return Ok(None);
+    }
+    if is_png(image)? {
+        return damaged(
+            image,
+            format!(
+                "some of its pixels have {} samples and others up to {}, and a PNG does not say which: give the EXR",
+                record.samples,
+                end.saturating_sub(first)
+            ),
+        );
+    }
+    let counts: Vec<_> = read_exr(image)?
+        .samples
+        .iter()
+        .map(|count| *count as u64)
+        .collect();
+    let sum = counts.iter().copied().fold(0, u64::saturating_add);
+    let most = counts.iter().copied().max().unwrap_or(0);
+    let sizes = [counts.len(), region.area()];
+    if sizes[0] != sizes[1] || sum != record.paths || Some(most) != end.checked_sub(first) {
+        return damaged(
+            image,
+            "its counts of samples are not those of its record".into(),
+        );
+    }
+    Ok(Some(counts))
+}
+
+/// The range of samples, where it is one; of an adaptive render whose samples are shared out again the range that its
+/// pixels could take from.
+fn whole_range(image: &Path, record: &Record, counted: bool) -> Result<[u64; 2]> {
+    let ranges = match &record.adaptive {
+        Some(adaptive) if !counted => adaptive.allowed.clone(),
+        _ => record.ranges(),
+    };
+    let merged = |adaptive: &AdaptiveRecord| adaptive.allowed.len() > 1;
+    let parts = record.adaptive.as_ref().is_some_and(merged);
     match ranges.as_slice() {
-        [[first, end]] if first < end && *end <= 1 << 63 => Ok([*first, *end]),
-        [_] => damaged(image, "its range of samples is empty".into()),
-        _ if record.adaptive.is_some() => damaged(
+        _ if parts => damaged(
             image,
             "it was merged, and the samples of a part went where the error was: render its parts one by one".into(),
         ),
+        [[first, end]] if first < end && *end <= 1 << 63 => Ok([*first, *end]),
+        [_] => damaged(image, "its range of samples is empty".into()),
         _ => damaged(
             image,
             "it was merged from ranges with gaps: render those one by one".into(),

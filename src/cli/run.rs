@@ -25,6 +25,8 @@ pub(crate) struct Run<'a> {
     pub outputs: Vec<PathBuf>,
     pub region: Rect,
     pub samples: Range<u64>,
+    /// Of each pixel, where that is known: see [`Task::counts`].
+    pub counts: Option<Vec<u64>>,
     pub aovs: Vec<Aov>,
     /// How to make the pictures beside the outputs, where they are wanted.
     pub denoise: Option<Denoising>,
@@ -44,13 +46,13 @@ pub(crate) struct StopRules {
     #[arg(long, value_name = "SECONDS", value_parser = super::options::seconds, allow_negative_numbers = true)]
     time: Option<Duration>,
     /// Stop when the standard error of the mean of the picture, relative to it, is at most E and so are those of
-    /// 95 % of the pixels; looked at after 64 samples and then each eighth more. render.samples stays the most
+    /// 95 % of the pixels; looked at after 64 samples and then at numbers an eighth apart. More samples go where the
+    /// error is, as scouts foresee it: samples that are not in the picture. render.samples stays the most
     #[arg(long, value_name = "E", value_parser = super::options::relative_error, allow_negative_numbers = true)]
     target_error: Option<f64>,
-    /// Take the samples for --target-error where the error is, as scouts foresee it: samples that are not in the
-    /// picture, so that it has no bias. What they foresee may miss the target, and that is said
+    /// Give every pixel the same number of samples under --target-error
     #[arg(long, requires = "target_error")]
-    adaptive: bool,
+    even: bool,
 }
 
 impl StopRules {
@@ -58,7 +60,6 @@ impl StopRules {
     pub(crate) fn adaptive(target_error: f64) -> Self {
         Self {
             target_error: Some(target_error),
-            adaptive: true,
             ..Self::default()
         }
     }
@@ -75,7 +76,8 @@ impl Run<'_> {
             features: !self.aovs.is_empty(),
             denoised: self.denoise.is_some(),
             target_error: self.rules.target_error,
-            adaptive: self.rules.adaptive,
+            adaptive: self.rules.target_error.is_some() && !self.rules.even,
+            counts: self.counts.clone(),
             ..Task::new(self.scene)
         };
         task.refuse_cut()?;
@@ -110,10 +112,7 @@ impl Run<'_> {
             true => session.denoise(&mut device, &rendering, denoised, record.as_mut()),
             false => Ok(false),
         };
-        let enough = matches!(
-            rendering.stopped,
-            None | Some(Stop::TargetError | Stop::Allotted)
-        );
+        let enough = matches!(rendering.stopped, None | Some(Stop::TargetError));
         let done = enough && traced.is_ok() && written.is_ok() && matches!(smoothed, Ok(true));
         let kept = session.keep(keeper, &rendering, done);
         if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
@@ -202,23 +201,17 @@ impl Session<'_> {
         traced
     }
 
-    /// Says where a render that had all it was to have has a larger error than was asked for.
+    /// Says where a render that had all its samples has a larger error than was asked for.
     fn tell_of_error(&self, rendering: &Rendering) {
-        let over = rendering.complete() || rendering.stopped == Some(Stop::Allotted);
-        let Some(target) = self.run.rules.target_error.filter(|_| over) else {
+        let Some(target) = self.run.rules.target_error.filter(|_| rendering.complete()) else {
             return;
         };
         let found = rendering.film.relative_error();
         if found.reaches(target) {
             return;
         }
-        let all = self.task.samples.end - self.task.samples.start;
-        let remedy = match rendering.film.counts.contains(&all) {
-            true => "give it more samples",
-            false => "its scouts foresaw less: ask for a smaller one",
-        };
         let text = format!(
-            "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; {remedy}",
+            "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; give it more samples",
             found.picture, found.pixels
         );
         remark(&text, self.output);
@@ -357,7 +350,6 @@ fn summary(record: &Record) -> String {
         None if record.complete => "",
         None => " so far",
         Some(Stop::TargetError) => " (error as asked for)",
-        Some(Stop::Allotted) => " (all that was allotted)",
         Some(Stop::Time) => " (time is up)",
         Some(Stop::Signal) => " (stopped)",
     };

@@ -8,7 +8,7 @@
 //!
 //! Where samples are cut into randomisations, the sums of the open ones stand behind the squares: 3 x f64 a pixel.
 //! Where sampling is adaptive, the film of the scouts follows that of the picture, and then, u64 a tile, the
-//! scouts that were asked for and, where that is decided, the samples that the picture is to have.
+//! samples that the picture is to have by now.
 //!
 //! Numbers are little-endian; the hash is over everything before it.
 
@@ -29,7 +29,7 @@ use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// The last character is the format's version.
-const MAGIC: [u8; 8] = *b"lampray1";
+const MAGIC: [u8; 8] = *b"lampray2";
 /// The largest head, in bytes.
 const HEAD_LIMIT: u64 = 16 << 20;
 /// Of a pixel: two sums of three channels and a count.
@@ -69,7 +69,8 @@ struct Head {
 /// What the planes of scouts do not say.
 #[derive(Serialize, Deserialize)]
 struct ScoutsHead {
-    decided: bool,
+    asked: u64,
+    rung: u64,
     rays: u64,
     non_finite: u64,
     first_non_finite: Option<(u64, u32, u32)>,
@@ -79,29 +80,26 @@ impl ScoutsHead {
     fn of(scouts: &Scouts) -> Self {
         let film = &scouts.film;
         Self {
-            decided: !scouts.wanted.is_empty(),
+            asked: scouts.asked,
+            rung: scouts.rung,
             rays: film.rays,
             non_finite: film.non_finite,
             first_non_finite: film.first_non_finite.map(place),
         }
     }
 
-    /// Bytes of their film and of what was decided.
-    fn announced(&self, region: Rect) -> u64 {
-        let tiles = Tiles::of(region).count() as u64 * (1 + u64::from(self.decided));
+    /// Bytes of a film of scouts and of what the picture's tiles are to have.
+    fn announced(region: Rect) -> u64 {
         (region.area() as u64)
             .saturating_mul(PIXEL)
-            .saturating_add(8 * tiles)
+            .saturating_add(8 * Tiles::of(region).count() as u64)
     }
 
     fn read(&self, reader: &mut impl Read, region: Rect) -> io::Result<Scouts> {
         let mut scouts = Scouts::new(region, 0);
         get_film(reader, &mut scouts.film)?;
-        get(reader, &mut scouts.asked, u64::from_le_bytes)?;
-        if self.decided {
-            scouts.wanted = scouts.asked.clone();
-            get(reader, &mut scouts.wanted, u64::from_le_bytes)?;
-        }
+        get(reader, &mut scouts.wanted, u64::from_le_bytes)?;
+        (scouts.asked, scouts.rung) = (self.asked, self.rung);
         let film = &mut scouts.film;
         (film.rays, film.non_finite) = (self.rays, self.non_finite);
         film.first_non_finite = self.first_non_finite.map(non_finite);
@@ -164,9 +162,7 @@ impl Checkpoint {
             put_film(&mut sink, film)?;
             if let Some(scouts) = scouts {
                 put_film(&mut sink, &scouts.film)?;
-                for tiles in [&scouts.asked, &scouts.wanted] {
-                    put(&mut sink, tiles, |count| count.to_le_bytes())?;
-                }
+                put(&mut sink, &scouts.wanted, |count| count.to_le_bytes())?;
             }
             let hash = sink.hasher.finalize();
             sink.inner.write_all(hash.as_bytes())
@@ -224,7 +220,7 @@ impl Checkpoint {
         let of_scouts = head
             .scouts
             .as_ref()
-            .map_or(0, |scouts| scouts.announced(region));
+            .map_or(0, |_| ScoutsHead::announced(region));
         let pixel = PIXEL + head.randomisations.as_ref().map_or(0, |_| OPEN);
         let announced = (region.area() as u64)
             .saturating_mul(pixel)

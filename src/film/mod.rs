@@ -46,7 +46,7 @@ pub use picture::{Aov, Features, Picture};
 pub use randomisations::{ErrorEstimate, Randomisations};
 pub use raster::{Noise, Pixels, Raster, Transfer};
 pub use raster_file::RasterFile;
-pub use read::{read_exr, read_record};
+pub use read::{is_png, read_exr, read_record};
 pub use record::{PilotRecord, Record, Seconds, Stop};
 pub use relative::{QUANTILE, RelativeError, needed_samples};
 pub use scouts::{AdaptiveRecord, SCOUTS, Scouts, Tiles};

@@ -27,3 +27,9 @@ pub fn read_record(path: impl AsRef<Path>) -> Result<(Record, Option<String>)> {
         Kind::Png => png::read_record(path, &mut input.reader),
     }
 }
+
+/// Whether a file is a PNG and no EXR.
+pub fn is_png(path: impl AsRef<Path>) -> Result<bool> {
+    let path = path.as_ref();
+    Ok(matches!(Input::open(path)?.kind(path)?, Kind::Png))
+}

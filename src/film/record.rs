@@ -159,8 +159,6 @@ pub struct Seconds {
 pub enum Stop {
     /// Its error was as small as was asked for.
     TargetError,
-    /// Adaptive sampling had shared out all that it was to, and the error is still not as small as was asked for.
-    Allotted,
     /// It had taken as long as was asked for.
     Time,
     /// Somebody wanted it to.

@@ -23,6 +23,11 @@ impl RelativeError {
     pub fn reaches(&self, target: f64) -> bool {
         self.picture <= target && self.pixels <= target
     }
+
+    /// How many times `target` the larger of the two is.
+    pub fn beside(&self, target: f64) -> f64 {
+        self.picture.max(self.pixels) / target
+    }
 }
 
 /// The root mean square of a standard error over the channels, which bounds that of the channels' mean.

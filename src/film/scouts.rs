@@ -12,20 +12,21 @@ const SMALLEST: u32 = 16;
 const MOST: usize = 1024;
 
 /// Samples that decide, and what they have decided so far; plain data, as a [`Film`] is.
-///
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scouts {
     pub film: Film,
-    /// Scouts of each pixel of a tile that were asked for.
-    pub asked: Vec<u64>,
-    /// Samples of each pixel of a tile that the picture gets; empty before that is known.
+    /// Scouts of each pixel that were asked for.
+    pub asked: u64,
+    /// How far the tile that gets the most has climbed: see `render/adaptive`.
+    pub rung: u64,
+    /// Samples that each pixel of a tile is to have by now.
     pub wanted: Vec<u64>,
 }
 
 /// What a record says of adaptive sampling.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AdaptiveRecord {
-    /// The rule that shares out the samples: `scouts`.
+    /// The rule that shares out the samples: `shape`.
     pub rule: String,
     /// Pixels along a side of a tile.
     pub tile: u32,
@@ -81,12 +82,13 @@ impl Tiles {
 }
 
 impl Scouts {
-    /// None has been taken, and `first` of each pixel are asked for.
-    pub fn new(region: Rect, first: u64) -> Self {
+    /// None has been asked for, and every pixel is to have `least` samples.
+    pub fn new(region: Rect, least: u64) -> Self {
         Self {
             film: Film::new(region),
-            asked: vec![first; Tiles::of(region).count()],
-            wanted: Vec::new(),
+            asked: 0,
+            rung: 0,
+            wanted: vec![least; Tiles::of(region).count()],
         }
     }
 }

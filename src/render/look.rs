@@ -13,7 +13,14 @@ use crate::pack::RUN_LENGTH;
 use std::ops::Range;
 
 /// Samples before the first look: an error that is estimated from fewer means little.
-const FIRST: u64 = 64;
+pub const FIRST: u64 = 64;
+
+/// The number of samples after which the next look is taken: an eighth further, in whole runs.
+pub fn further(count: u64) -> u64 {
+    let run = u64::from(RUN_LENGTH);
+    let step = (count / 8).next_multiple_of(run).max(run);
+    count.saturating_add(step)
+}
 
 /// The index of the sample before which the first look after sample `index` of a range is taken.
 pub fn next(samples: &Range<u64>, index: u64) -> u64 {
@@ -28,7 +35,7 @@ pub fn next(samples: &Range<u64>, index: u64) -> u64 {
         if look > index || look >= samples.end {
             return look.min(samples.end);
         }
-        count = (count + count / 8).next_multiple_of(run);
+        count = further(count);
     }
 }
 

@@ -18,8 +18,8 @@ const FEATURES: u64 = 32 + 32;
 /// Of a pixel while its picture is denoised: the picture as it was, what is known of the pixel without noise, and its
 /// light as it is and as it will be; then the picture as it becomes and its PNG on the way to the disk.
 const DENOISED: u64 = 28 + 48 + 12 + 3 * 16 + 12 + 9;
-/// Of a pixel whose samples are shared out by scouts: their sums, and how far it is.
-const SCOUTS: u64 = 56 + 32;
+/// Of a pixel whose samples are shared out by scouts: their sums, how far it is, and what follows from the sums.
+const SCOUTS: u64 = 56 + 32 + 10 * 8;
 /// Of a pixel whose samples are cut into randomisations: the sum of the open one.
 const RANDOMISED: u64 = 24;
 /// Of a body: as parsed, as packed, in its tree while that is built, and all of that on the device.

@@ -11,6 +11,7 @@ mod picture;
 mod plan;
 mod rendering;
 
+pub use adaptive::RULE as ADAPTIVE_RULE;
 pub use choose::{Chosen, VULKAN_HINT, devices, open, open_unexamined, word};
 pub use endure::{Spares, endure};
 pub use memory::{memory_estimate, refuse_too_large};
@@ -25,7 +26,7 @@ use crate::film::{Film, SCOUTS, Stop};
 use crate::knobs::{InterruptionRule, Sequence};
 use crate::pack::{Packed, Rect, Traversal};
 use crate::scene::Scene;
-use adaptive::Work;
+use adaptive::{Goals, Work};
 use feed::{Fed, Supply, feed};
 use std::ops::{ControlFlow, Range};
 use std::sync::OnceLock;
@@ -57,6 +58,9 @@ pub struct Task<'a> {
     /// Whether the samples go where the error is, in the place of evenly over the picture; only beside a target
     /// error.
     pub adaptive: bool,
+    /// How many samples each pixel of the region gets, row by row, where that is known: those of a picture that was
+    /// stopped and is rendered again. Without a target error, and none more than there are.
+    pub counts: Option<Vec<u64>>,
     /// What [`Task::pilot`] found, once somebody has asked.
     pub pilot: OnceLock<Pilot>,
 }
@@ -73,6 +77,7 @@ impl<'a> Task<'a> {
             traversal: Traversal::of(scene),
             target_error: None,
             adaptive: false,
+            counts: None,
             pilot: OnceLock::new(),
         }
     }
@@ -113,6 +118,9 @@ impl Task<'_> {
 
     /// Paths of all of it.
     pub fn paths(&self) -> u64 {
+        if let Some(counts) = &self.counts {
+            return counts.iter().copied().fold(0, u64::saturating_add);
+        }
         let samples = self.samples.end - self.samples.start;
         (self.region.area() as u64).saturating_mul(samples)
     }
@@ -157,7 +165,7 @@ impl Task<'_> {
             return Ok(());
         }
         Err(Error::Usage(format!(
-            "--adaptive samples must be independent: render.sequence is {}; leave out --adaptive, or set render.sequence=independent",
+            "--target-error shares out samples, which must be independent for that: render.sequence is {}; add --even, or set render.sequence=independent",
             render.sequence
         )))
     }
@@ -171,8 +179,21 @@ impl Task<'_> {
         })
     }
 
-    /// What is left of it where a film has some. Of an adaptive render it is the pace alone: what is left follows
-    /// from the scouts.
+    /// What is left of it where each pixel's samples are known.
+    fn counted(&self, film: &Film) -> Option<Work> {
+        let counts = self.counts.clone()?;
+        let taken = film.counts.clone();
+        Some(Work::new(
+            self.region,
+            self.samples.clone(),
+            taken,
+            Goals::Pixels(counts),
+            look::FIRST,
+        ))
+    }
+
+    /// What is left of it where a film has some. Of an adaptive render, and where pixels' samples are known, it is the
+    /// pace alone: the work comes piece by piece.
     ///
     /// # Errors
     /// [`Error::Internal`] for a film that this task cannot have left so; [`Error::Usage`] for samples that decide
@@ -184,6 +205,13 @@ impl Task<'_> {
         let stray = || Error::Internal("the film is of another render".into());
         if film.region != self.region {
             return Err(stray());
+        }
+        if let Some(counts) = &self.counts {
+            let fits = counts.len() == film.counts.len() && self.target_error.is_none();
+            let work = self.counted(film).filter(|work| fits && work.is_possible());
+            return work
+                .map(|_| Plan::new(self.region, samples))
+                .ok_or_else(stray);
         }
         match (self.terms(), &rendering.scouts) {
             (Some(_), _) if samples.end > SCOUTS => Err(Error::Usage(
@@ -262,7 +290,7 @@ pub fn go_on_by(
         let (send, receive) = sync_channel(1);
         let (more, works) = channel();
         let wants_features = task.features && rendering.features.is_none();
-        let supply = match task.terms().is_some() {
+        let supply = match task.terms().is_some() || task.counts.is_some() {
             true => Supply::Works(plan.pace(), works),
             false => Supply::Plan(plan),
         };
@@ -308,7 +336,7 @@ fn gather(
         }
         if spent {
             let Some(work) = rendering.next_work(task) else {
-                rendering.stopped = rendering.allotted(task);
+                rendering.stopped = (!rendering.complete()).then_some(Stop::TargetError);
                 return true;
             };
             // Who no longer listens has failed, and says so when it is joined.

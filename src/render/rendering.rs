@@ -4,7 +4,7 @@ use super::adaptive::{self, Work};
 use super::feed::Fed;
 use super::{Task, look};
 use crate::device::DeviceInfo;
-use crate::film::{Checkpoint, Film, SCOUTS, Scouts, Stop, Tiles};
+use crate::film::{Checkpoint, Film, SCOUTS, Scouts, Stop};
 use crate::pack::Feature;
 use std::ops::Range;
 use std::time::Duration;
@@ -39,7 +39,7 @@ impl Rendering {
     pub fn new(task: &Task) -> Self {
         Self {
             film: task.film(),
-            scouts: task.terms().map(|_| adaptive::scouts(task.region)),
+            scouts: task.terms().map(|terms| terms.scouts(task.region)),
             features: None,
             stopped: None,
             devices: Vec::new(),
@@ -93,23 +93,11 @@ impl Rendering {
         self.film.paths.saturating_add(scouts)
     }
 
-    /// Paths that are to be traced, as far as it is known.
+    /// Paths that are to be traced at most, as far as it is known.
     pub fn length(&self) -> u64 {
-        let Some(scouts) = &self.scouts else {
-            return self.total;
-        };
-        let tiles = Tiles::of(self.film.region);
-        let sum = |counts: &[u64]| {
-            let of_pixel = |pixel| counts[tiles.of_pixel(pixel)];
-            (0..self.film.counts.len())
-                .map(of_pixel)
-                .fold(0, u64::saturating_add)
-        };
-        let picture = match scouts.wanted.as_slice() {
-            [] => self.total,
-            wanted => sum(wanted),
-        };
-        picture.saturating_add(sum(&scouts.asked))
+        let pixels = self.film.counts.len() as u64;
+        let asked = self.scouts.as_ref().map_or(0, |scouts| scouts.asked);
+        self.total.saturating_add(asked.saturating_mul(pixels))
     }
 
     /// How much of it is done, 0 to 1.
@@ -163,18 +151,12 @@ impl Rendering {
             .is_some_and(|target| self.film.relative_error().reaches(target))
     }
 
-    /// What an adaptive render does next, where all before is done; none where that was all.
+    /// What a render that is given its work piece by piece does next, where all before is done; none where that was
+    /// all.
     pub(super) fn next_work(&mut self, task: &Task) -> Option<Work> {
-        adaptive::next(&task.terms()?, &self.film, self.scouts.as_mut()?)
-    }
-
-    /// Why an adaptive render that had its last piece of work ended before the last sample, if it did. What the
-    /// picture itself says of its error has decided nothing, and decides only what this is called.
-    pub(super) fn allotted(&self, task: &Task) -> Option<Stop> {
-        match (self.complete(), self.reached(task)) {
-            (true, _) => None,
-            (false, true) => Some(Stop::TargetError),
-            (false, false) => Some(Stop::Allotted),
+        if let Some(work) = task.counted(&self.film) {
+            return (!work.is_empty()).then_some(work);
         }
+        adaptive::next(&task.terms()?, &self.film, self.scouts.as_mut()?)
     }
 }

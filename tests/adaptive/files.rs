@@ -40,7 +40,6 @@ fn stage() -> TempDir {
 const RENDER: &[&str] = &[
     "render",
     "s.toml",
-    "--adaptive",
     "--device",
     "cpu",
     "--width",
@@ -52,17 +51,11 @@ const RENDER: &[&str] = &[
     "--spp",
     "5000",
     "--target-error",
-    "0.15",
+    "0.06",
 ];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [RENDER, more].concat()
-}
-
-/// The same without the wish for adaptive samples.
-fn even<'a>(words: &[&'a str]) -> Vec<&'a str> {
-    let words = words.iter().copied();
-    words.filter(|word| *word != "--adaptive").collect()
 }
 
 fn read(folder: &Path, name: &str) -> Picture {
@@ -76,12 +69,12 @@ fn the_picture_says_how_it_was_sampled() {
     let folder = stage.path();
     let told = ran(folder, &with(&["-o", "a.exr", "--json"]));
     let json: Value = serde_json::from_str(told.lines().next().expect("JSON")).expect("JSON");
-    assert_eq!(json["adaptive"]["rule"], "scouts");
+    assert_eq!(json["adaptive"]["rule"], "shape");
     let picture = read(folder, "a.exr");
     let record = &picture.record;
     let adaptive = record.adaptive.as_ref().expect("it is adaptive");
     let counts = || picture.samples.iter().map(|count| *count as u64);
-    assert_eq!(record.target_error, Some(0.15));
+    assert_eq!(record.target_error, Some(0.06));
     assert_eq!(Some(record.samples), counts().min());
     assert_eq!(Some(record.sample_range[1]), counts().max());
     assert_eq!(record.paths, counts().sum::<u64>());
@@ -91,7 +84,7 @@ fn the_picture_says_how_it_was_sampled() {
     );
     assert_eq!(adaptive.allowed, [[0, 5000]]);
     assert!(adaptive.scout_paths > 0 && adaptive.scout_rays > adaptive.scout_paths);
-    assert!(matches!(record.stopped, Some(Stop::TargetError | Stop::Allotted)) && !record.complete);
+    assert!(record.stopped == Some(Stop::TargetError) && !record.complete);
     let pixels = picture.pixels() as f64;
     for channel in 0..3 {
         let of_pixel =
@@ -118,14 +111,14 @@ fn the_picture_says_how_it_was_sampled() {
 fn even_sampling_is_a_choice() {
     let stage = stage();
     let folder = stage.path();
-    ran(folder, &even(&with(&["-o", "even.exr"])));
+    ran(folder, &with(&["-o", "even.exr", "--even"]));
     let even = read(folder, "even.exr");
     assert!(even.record.adaptive.is_none());
     assert!(even.samples.iter().all(|count| *count == even.samples[0]));
     ran(folder, &with(&["-o", "a.exr", "--seed", "7"]));
     let told = ran(folder, &["diff", "even.exr", "a.exr", "--margin", "0.05"]);
     assert!(told.contains(" to ") && told.contains("samples"), "{told}");
-    let told = refused(folder, &["render", "s.toml", "--adaptive"], 2);
+    let told = refused(folder, &["render", "s.toml", "--even"], 2);
     assert!(told.contains("--target-error"), "{told}");
 }
 
@@ -168,11 +161,11 @@ fn no_checkpoint_of_the_other_kind_is_gone_on_from() {
     ran(folder, &[&RENDER[..RENDER.len() - 2], &long].concat());
     let told = refused(
         folder,
-        &even(&[&RENDER[..RENDER.len() - 2], &long, &["--resume"]].concat()),
+        &[&RENDER[..RENDER.len() - 2], &long, &["--resume", "--even"]].concat(),
         65,
     );
     assert!(
-        told.contains("how the samples are shared out is scouts in the checkpoint, and even now"),
+        told.contains("how the samples are shared out is shape in the checkpoint, and even now"),
         "{told}"
     );
 }
@@ -188,4 +181,31 @@ fn no_error_at_all_is_refused() {
         );
         assert!(told.contains("above 0 and below 1"), "{told}");
     }
+}
+
+/// Samples that are not independent cannot be shared out, and both ways out are said.
+#[test]
+fn sequences_are_sampled_evenly() {
+    let stage = stage();
+    let folder = stage.path();
+    let sobol = [
+        "render",
+        "s.toml",
+        "--device",
+        "cpu",
+        "--width",
+        "16",
+        "--height",
+        "16",
+        "--set",
+        "render.sequence=sobol",
+        "--target-error",
+        "0.5",
+    ];
+    let told = refused(folder, &sobol, 2);
+    assert!(
+        told.contains("add --even") && told.contains("render.sequence=independent"),
+        "{told}"
+    );
+    ran(folder, &[&sobol[..], &["--even"]].concat());
 }

@@ -266,7 +266,7 @@ fn checkpoint(change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
     let sums = [0_u8; 2 * 48];
     let counts = [4_u64.to_le_bytes(); 2].concat();
     let length = (head.len() as u64).to_le_bytes();
-    let content = [&b"lampray1"[..], &length, head.as_bytes(), &sums, &counts].concat();
+    let content = [&b"lampray2"[..], &length, head.as_bytes(), &sums, &counts].concat();
     [&content[..], blake3::hash(&content).as_bytes()].concat()
 }
 

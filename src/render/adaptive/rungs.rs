@@ -1,27 +1,25 @@
 //! The numbers of samples that a tile can have: a ladder, so that neighbours mostly have the same and few
-//! dispatches do.
+//! dispatches do. Its rungs are the numbers at which even sampling looks at the error.
 
+use super::super::look;
 use crate::pack::RUN_LENGTH;
 use std::ops::Range;
 
-/// Fewest samples of a pixel of the picture. What scouts see may leave out what is rare: these bound how much a
-/// part can be neglected, and its error is estimated from them.
-pub const FIRST: u64 = 32;
+/// Fewest samples of a pixel of the picture: those that even sampling takes before it first looks.
+pub const FIRST: u64 = look::FIRST;
 
-/// The rung above one: an eighth further, a run at least.
-pub fn next(rung: u64) -> u64 {
-    let run = u64::from(RUN_LENGTH);
-    let step = (rung / 8).next_multiple_of(run).max(run);
-    rung.saturating_add(step)
+/// Samples on a rung, counted from 0.
+pub fn at(rung: u64) -> u64 {
+    (0..rung).fold(FIRST, |count, _| look::further(count))
 }
 
-/// The lowest rung with at least so many samples; none is above `most`.
-pub fn reach(count: f64, most: u64) -> u64 {
-    let mut rung = FIRST;
-    while (rung as f64) < count && rung < most {
-        rung = next(rung);
+/// The lowest rung from `from` on with at least so many samples, or with all of them.
+pub fn reach(from: u64, wanted: f64, all: u64) -> u64 {
+    let (mut rung, mut count) = (from, at(from));
+    while (count as f64) < wanted && count < all {
+        (rung, count) = (rung + 1, look::further(count));
     }
-    rung.min(most)
+    rung
 }
 
 /// So many samples from the start of a range on, and what is left of the last run: runs are never broken but at
@@ -37,21 +35,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rungs_are_whole_runs_an_eighth_apart() {
-        let mut rungs = vec![FIRST];
-        while rungs.len() < 12 {
-            rungs.push(next(*rungs.last().unwrap()));
+    fn rungs_are_where_even_sampling_looks() {
+        let mut index = 0;
+        for rung in 0..40 {
+            index = look::next(&(0..u64::MAX), index);
+            assert_eq!(at(rung), index);
         }
-        assert_eq!(
-            rungs,
-            [32, 48, 64, 80, 96, 112, 128, 144, 176, 208, 240, 272]
-        );
-        assert_eq!(reach(0.0, 1000), 32);
-        assert_eq!(reach(32.0, 1000), 32);
-        assert_eq!(reach(32.5, 1000), 48);
-        assert_eq!(reach(1e9, 1000), 1000);
-        assert_eq!(reach(f64::INFINITY, 40), 40);
-        assert_eq!(reach(5.0, 10), 10);
+        assert_eq!([at(0), at(1), at(7), at(8)], [64, 80, 208, 240]);
+    }
+
+    #[test]
+    fn a_rung_is_reached_from_below() {
+        assert_eq!(reach(0, 0.0, 1000), 0);
+        assert_eq!(reach(0, 64.5, 1000), 1);
+        assert_eq!(reach(3, 64.5, 1000), 3);
+        // Between 912 and 1040.
+        assert_eq!(at(reach(0, 1e9, 1000)), 1040);
+        assert_eq!(reach(0, f64::INFINITY, 40), 0);
     }
 
     #[test]

@@ -13,7 +13,30 @@ use std::time::Duration;
 /// Fewest pixels of a block, where samples can be left for later.
 const FEWEST: u64 = 64;
 
-/// Hands out blocks until every pixel has as many samples as its tile wants.
+/// Samples that each pixel is to have.
+#[derive(Clone, Debug)]
+pub enum Goals {
+    /// By tiles.
+    Tiles(Tiles, Vec<u64>),
+    /// Row by row.
+    Pixels(Vec<u64>),
+}
+
+impl Goals {
+    fn of(&self, pixel: usize) -> u64 {
+        match self {
+            Self::Tiles(tiles, counts) => counts[tiles.of_pixel(pixel)],
+            Self::Pixels(counts) => counts[pixel],
+        }
+    }
+
+    fn highest(&self) -> Option<u64> {
+        let (Self::Tiles(_, counts) | Self::Pixels(counts)) = self;
+        counts.iter().copied().max()
+    }
+}
+
+/// Hands out blocks until every pixel has as many samples as it is to have.
 ///
 /// The picture's pixels advance together, from one level to twice as many samples: a render that is stopped has no
 /// part that lags far behind. On each level the pixels that are to go from the same count to the same count are
@@ -22,11 +45,9 @@ const FEWEST: u64 = 64;
 #[derive(Clone, Debug)]
 pub struct Work {
     region: Rect,
-    tiles: Tiles,
     /// The samples that there are.
     samples: Range<u64>,
-    /// Of each tile, samples a pixel.
-    wanted: Vec<u64>,
+    wanted: Goals,
     /// Of each pixel, samples that were handed out.
     taken: Vec<u64>,
     /// Where pixels go now, samples.
@@ -37,18 +58,16 @@ pub struct Work {
 }
 
 impl Work {
-    /// `taken` are the samples that pixels have already, `wanted` those that they are to have, by tiles; `level` is
-    /// the first.
+    /// `taken` are the samples that pixels have already, `wanted` those that they are to have; `level` is the first.
     pub(in super::super) fn new(
         region: Rect,
         samples: Range<u64>,
         taken: Vec<u64>,
-        wanted: Vec<u64>,
+        wanted: Goals,
         level: u64,
     ) -> Self {
         Self {
             region,
-            tiles: Tiles::of(region),
             level,
             samples,
             wanted,
@@ -60,9 +79,17 @@ impl Work {
 
     /// Whether there is nothing to do.
     pub(in super::super) fn is_empty(&self) -> bool {
-        let short =
-            |(pixel, taken): (usize, &u64)| *taken < self.wanted[self.tiles.of_pixel(pixel)];
+        let short = |(pixel, taken): (usize, &u64)| *taken < self.wanted.of(pixel);
         !self.taken.iter().enumerate().any(short)
+    }
+
+    /// Whether it can be the rest of such work: no pixel has more than it is to have, nor a part of a run.
+    pub(in super::super) fn is_possible(&self) -> bool {
+        let fits = |(pixel, count): (usize, &u64)| {
+            *count <= self.wanted.of(pixel)
+                && (*count == 0 || rungs::whole(&self.samples, *count) == *count)
+        };
+        self.taken.iter().enumerate().all(fits)
     }
 
     /// Learns how long a block took.
@@ -73,13 +100,12 @@ impl Work {
 
     /// Samples that a pixel is to have on this level.
     fn goal(&self, pixel: usize) -> u64 {
-        let wanted = self.wanted[self.tiles.of_pixel(pixel)];
-        rungs::whole(&self.samples, self.level).min(wanted)
+        rungs::whole(&self.samples, self.level).min(self.wanted.of(pixel))
     }
 
     /// The next block, or nothing when all is done.
     pub(in super::super) fn next_block(&mut self) -> Option<Block> {
-        let highest = self.wanted.iter().copied().max()?;
+        let highest = self.wanted.highest()?;
         let first = loop {
             let found =
                 (self.cursor..self.taken.len()).find(|&pixel| self.taken[pixel] < self.goal(pixel));
@@ -158,9 +184,9 @@ mod tests {
     /// What tiles may want: anything up to a few thousand, in no order.
     fn wants(samples: &Range<u64>) -> Vec<u64> {
         let tiles = Tiles::of(REGION).count();
-        let count = |tile: usize| rungs::reach((tile * 7919 % 1500) as f64, 1 << 40);
+        let rung = |tile: usize| rungs::reach(0, (tile * 7919 % 1500) as f64, 1 << 40);
         (0..tiles)
-            .map(|tile| rungs::whole(samples, count(tile)))
+            .map(|tile| rungs::whole(samples, rungs::at(rung(tile))))
             .collect()
     }
 
@@ -170,7 +196,9 @@ mod tests {
         for (samples, budget) in [(0..1 << 40, 1 << 20), (5..1 << 40, 5000), (9..640, 70_000)] {
             let wanted = wants(&samples);
             let mut next = vec![0; REGION.area()];
-            let mut work = Work::new(REGION, samples.clone(), next.clone(), wanted.clone(), 32);
+            let tiles = Tiles::of(REGION);
+            let goals = Goals::Tiles(tiles, wanted.clone());
+            let mut work = Work::new(REGION, samples.clone(), next.clone(), goals, 32);
             work.pace = Pace::fixed(budget);
             while let Some(block) = work.next_block() {
                 assert!(block.paths() <= budget.max(16 * 64), "{block:?}");
@@ -184,7 +212,6 @@ mod tests {
                     }
                 }
             }
-            let tiles = Tiles::of(REGION);
             assert!((0..next.len()).all(|pixel| next[pixel] == wanted[tiles.of_pixel(pixel)]));
             assert!(work.is_empty());
         }
@@ -196,7 +223,8 @@ mod tests {
         let samples = 0..1 << 40;
         let wanted = wants(&samples);
         let tiles = wanted.len();
-        let mut work = Work::new(REGION, samples, vec![0; REGION.area()], wanted, 32);
+        let goals = Goals::Tiles(Tiles::of(REGION), wanted);
+        let mut work = Work::new(REGION, samples, vec![0; REGION.area()], goals, 32);
         work.pace = Pace::fixed(u64::MAX);
         let blocks = std::iter::from_fn(|| work.next_block()).count();
         assert!(blocks <= 5 * tiles / 2, "{blocks} blocks of {tiles} tiles");
