@@ -9,6 +9,7 @@ use crate::film::{AdaptiveRecord, Aov, Record, Stop, is_png, read_exr, read_reco
 use crate::pack::Rect;
 use crate::render::{ADAPTIVE_RULE, scene_hash, whole};
 use crate::scene::{Assignment, Scene};
+use crate::wording::named;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -41,7 +42,7 @@ impl Command {
         if record.shader_hash != crate::shader::library_hash() && !output.quiet {
             note(&format!(
                 "warning: {} was made by lampray {} with other shaders: the pixels may differ",
-                self.image.display(),
+                named(&self.image),
                 record.version
             ));
         }
