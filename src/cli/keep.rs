@@ -7,9 +7,9 @@ use crate::place::{Place, follow};
 use crate::render::{self, Rendering, Task};
 use crate::wording::named;
 use clap::Args;
-use std::fs::{self, File, Metadata, TryLockError};
+use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Saving a render on its way.
@@ -42,8 +42,11 @@ pub(crate) struct Keeper {
     last: Instant,
     /// Paths that the last checkpoint holds.
     kept: u64,
-    /// The checkpoint that this render wrote last or goes on from, locked as long as the render lives.
+    /// The checkpoint that this render wrote last or goes on from, locked as long as the render lives; before
+    /// there is one an empty file in its place.
     held: Option<File>,
+    /// Whether that is an empty file which this render put there.
+    claims: bool,
 }
 
 impl KeepOptions {
@@ -79,6 +82,7 @@ impl KeepOptions {
             last: Instant::now(),
             kept: 0,
             held: None,
+            claims: false,
         };
         keeper.refuse_place(&outputs)?;
         let found = if self.resume {
@@ -88,6 +92,9 @@ impl KeepOptions {
             keeper.refuse_to_lose()?;
             None
         };
+        if keeper.held.is_none() {
+            keeper.claim()?;
+        }
         let Some((checkpoint, remark)) = found else {
             if self.resume {
                 note(&format!(
@@ -113,7 +120,7 @@ impl Keeper {
     /// A checkpoint may hold hours: only who says --resume or removes it does without.
     fn refuse_to_lose(&self) -> Result<()> {
         for path in [self.path.clone(), previous(&self.path)] {
-            if path.exists() {
+            if path.exists() && !is_empty(&path) {
                 let source = io::Error::other(match Checkpoint::is_one(&path) {
                     true => "a checkpoint is there; add --resume to go on from it, or remove it",
                     false => {
@@ -159,6 +166,33 @@ impl Keeper {
         Ok(())
     }
 
+    /// Takes the name of the checkpoint for this render, by an empty file that is locked: a second render that is to
+    /// be saved there is told so before it renders anything. One that a killed render left is nobody's.
+    fn claim(&mut self) -> Result<()> {
+        let create = |source| Error::Create {
+            path: self.path.clone(),
+            source,
+        };
+        let mut options = OpenOptions::new();
+        let file = options.write(true).create(true).truncate(false);
+        let file = file.open(&self.path).map_err(create)?;
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(self.another("another render is writing it"));
+        }
+        self.held = Some(file);
+        self.claims = true;
+        // Between being opened and locked it may have become another's.
+        match self.is_own() && is_empty(&self.path) {
+            true => Ok(()),
+            false => Err(self.another("another render has written it since")),
+        }
+    }
+
+    /// Whether all that is there is this render's claim.
+    fn only_claims(&self) -> bool {
+        self.claims && self.is_own() && is_empty(&self.path)
+    }
+
     fn another(&self, why: &'static str) -> Error {
         Error::Create {
             path: self.path.clone(),
@@ -199,8 +233,13 @@ impl Keeper {
         record.devices = rendering.devices.clone();
         rendering.film.describe(&mut record);
         let (film, scouts) = (&rendering.film, rendering.scouts.as_ref());
+        if self.only_claims() {
+            // Else it would be kept as the checkpoint before.
+            let _ = fs::remove_file(&self.path);
+        }
         Checkpoint::save(&self.path, &record, self.samples, film, scouts)?;
         self.kept = rendering.traced();
+        self.claims = false;
         self.hold()
     }
 
@@ -219,6 +258,19 @@ impl Keeper {
     pub(crate) fn kept(&self) -> Option<&PathBuf> {
         (self.kept > 0).then_some(&self.path)
     }
+}
+
+/// A render that ends without a checkpoint leaves none, not even an empty one.
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        if self.only_claims() {
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+fn is_empty(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() == 0)
 }
 
 /// Whether two names are of one file; not every system tells.

@@ -24,7 +24,7 @@ use crate::pack::Rect;
 use crate::place::Place;
 use crate::wording::named;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -284,7 +284,7 @@ impl Checkpoint {
         head.is_ok_and(|head| head == MAGIC)
     }
 
-    /// The last whole checkpoint: that at `path`, or where it is damaged or missing the one before, with a
+    /// The last whole checkpoint: that at `path`, or where it is damaged, empty or missing the one before, with a
     /// remark. None where there is neither.
     ///
     /// # Errors
@@ -295,13 +295,15 @@ impl Checkpoint {
             Ok(checkpoint) => return Ok(Some((checkpoint, None))),
             Err(fault) => fault,
         };
+        // A render that was killed before it saved anything leaves an empty file.
+        let is_empty = fs::metadata(path).is_ok_and(|found| found.len() == 0);
         let before = previous(path);
         match Self::read(&before) {
             Ok(checkpoint) => {
                 let remark = format!("{fault}; going on from {}", named(&before));
                 Ok(Some((checkpoint, Some(remark))))
             }
-            Err(error) if missing(&fault) && missing(&error) => Ok(None),
+            Err(error) if (is_empty || missing(&fault)) && missing(&error) => Ok(None),
             // What the one before is like matters only where it is all there is.
             Err(error) if missing(&fault) => Err(error),
             Err(_) => Err(fault),

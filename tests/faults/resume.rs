@@ -244,6 +244,33 @@ const IN_THE_WAY: &[Row] = &[
         says: "another render is writing it",
     },
     Row {
+        done: "a second render with the checkpoint of one that has saved nothing yet",
+        act: |at| {
+            let other = at.start(&[LONG, CPU, &["--checkpoint", "c"]]);
+            at.wait_for("c");
+            let output = at.run(&[LONG, CPU, RESUMED]);
+            super::stage::send("KILL", &other);
+            other.end();
+            output
+        },
+        exit: 73,
+        left: &[Else("c", "an empty file: the name is taken")],
+        says: "another render is writing it",
+    },
+    Row {
+        done: "SIGKILL before anything was saved, then the same command again",
+        act: |at| {
+            let killed = at.start(&[LONG, CPU, &["--checkpoint", "c"]]);
+            at.wait_for("c");
+            super::stage::send("KILL", &killed);
+            killed.end();
+            at.run(&[LONG, CPU, &["--checkpoint", "c"]])
+        },
+        exit: 0,
+        left: &[Same("o.exr")],
+        says: "",
+    },
+    Row {
         done: "`--checkpoint /dev/null`",
         act: |at| {
             at.old("o.exr")

@@ -32,7 +32,7 @@ const SIGNALS: &[Row] = &[
         act: |at| {
             let large = ["--width", "1000", "--height", "1000"];
             let child = at.old("o.exr").start(&[ENDLESS, CPU, KEPT, &large]);
-            at.wait_for("c");
+            at.wait_until("a checkpoint", || at.is_checkpoint("c"));
             send("INT", &child);
             let output = child.end();
             // How many there were by then is chance.
