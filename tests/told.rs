@@ -55,7 +55,7 @@ fn lampray(
 /// Settings, and the words of the only note that they are worth; none for those that do something.
 #[test]
 fn settings_that_change_nothing_are_noted() {
-    let cases: [(&[&str], &str); 20] = [
+    let cases: [(&[&str], &str); 23] = [
         (&[], ""),
         (
             &["light.pole=receiver"],
@@ -127,6 +127,23 @@ fn settings_that_change_nothing_are_noted() {
         (
             &["interruption.rule=efficiency"],
             "set interruption.start=0",
+        ),
+        (&["interruption.start=8"], "no path comes to that hit"),
+        (
+            &[
+                "render.samples=64",
+                "render.sequence=sobol",
+                "render.randomisations=64",
+            ],
+            "sets have 16 samples at least, so there are 4",
+        ),
+        (
+            &[
+                "render.samples=64",
+                "render.sequence=sobol",
+                "render.randomisations=4",
+            ],
+            "",
         ),
         (
             &[

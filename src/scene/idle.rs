@@ -98,29 +98,46 @@ impl Scene {
     /// What numbers are drawn, and what directions are made of them.
     fn idle_numbers(&self, usual: &Settings) -> Vec<String> {
         let settings = &self.settings;
-        let used = self.used_materials();
-        let materials = self.materials.iter().zip(used);
-        let scatters = |scatter: Scatter| {
-            let mut used = materials.clone().filter(|(_, used)| *used);
-            used.any(|(material, _)| material.scatter == scatter)
-        };
         let mut idle = Idle::default();
         let set = settings.render.randomisations != usual.render.randomisations;
         let independent = settings.render.sequence == Sequence::Independent;
         let why = "render.sequence = independent has no point sets";
         idle.say(set && independent, "render.randomisations", why);
+        if let Some(length) = settings.render.randomisation().filter(|_| set) {
+            let (sets, wanted) = (
+                settings.render.samples / length,
+                settings.render.randomisations,
+            );
+            if sets < wanted {
+                idle.lines.push(format!(
+                    "render.randomisations = {wanted} is more than render.samples = {} allow: sets have {length} samples at least, so there are {sets}",
+                    settings.render.samples
+                ));
+            }
+        }
         let set = settings.scatter.diffuse != usual.scatter.diffuse;
         let why = "no shape is diffuse";
-        idle.say(set && !scatters(Scatter::Diffuse), "scatter.diffuse", why);
+        idle.say(
+            set && !self.scatters(Scatter::Diffuse),
+            "scatter.diffuse",
+            why,
+        );
         let set = settings.scatter.bound != usual.scatter.bound;
         let clamps = settings.scatter.bound == ScatterBound::Clamp;
-        let none = !scatters(Scatter::Directional);
+        let none = !self.scatters(Scatter::Directional);
         idle.say(
             set && clamps && none,
             "scatter.bound",
             "no shape is directional",
         );
         idle.lines
+    }
+
+    /// Whether a shape's surface is of that kind.
+    pub(super) fn scatters(&self, scatter: Scatter) -> bool {
+        let materials = self.materials.iter().zip(self.used_materials());
+        let mut used = materials.filter(|(_, used)| *used);
+        used.any(|(material, _)| material.scatter == scatter)
     }
 
     fn idle_interruption(&self, usual: &Settings) -> Vec<String> {
@@ -137,6 +154,12 @@ impl Scene {
         let none = own.rule == InterruptionRule::None;
         idle.say(none && own.start != usual.start, "interruption.start", why);
         idle.say(none && own.order != usual.order, "interruption.order", why);
+        let late = own.start != usual.start && own.start >= self.settings.render.max_bounces;
+        let unreached = format!(
+            "render.max_bounces = {}: no path comes to that hit",
+            self.settings.render.max_bounces
+        );
+        idle.say(!none && late, "interruption.start", &unreached);
         let literal = own.weight == InterruptionWeight::Literal && own.weight != usual.weight;
         idle.say(none && literal, "interruption.weight", why);
         if efficiency && own.start > 0 {

@@ -7,7 +7,7 @@
 //! leave, or meet surfaces between with a factor below 1, the product over the hits of a path decides.
 
 use super::Scene;
-use crate::knobs::{InterruptionRule, InterruptionWeight, short};
+use crate::knobs::{InterruptionRule, InterruptionWeight, Scatter, short};
 use crate::wording::counted;
 
 /// Materials of one scene that are told of.
@@ -92,7 +92,11 @@ impl Scene {
     /// What makes it differ: [`Settings::biases`](crate::knobs::Settings::biases), and materials at which every path
     /// ends, which no weight makes up for.
     pub fn biases(&self) -> Vec<String> {
-        let settings = self.settings.biases().into_iter().map(String::from);
+        let mut settings = self.settings.biases();
+        // A bound of directions that no surface draws.
+        let bounds = self.scatters(Scatter::Directional);
+        settings.retain(|cause| bounds || !cause.starts_with("scatter.bound"));
+        let settings = settings.into_iter().map(String::from);
         let ends = self.unbounded().into_iter();
         let ends = ends.filter(|one| one.survival == 0.0);
         let name = |one: Unbounded| short(&self.materials[one.number].name);
