@@ -75,6 +75,7 @@ impl Command {
             region,
             samples,
             counts: None,
+            again: None,
             aovs: self.aov,
             denoise: self.denoise.wanted(),
             device: &self.device,

@@ -18,7 +18,8 @@ use std::path::{Path, PathBuf};
 /// Takes the scene, every knob, the crop and the samples from the PNG or EXR. On the same device,
 /// driver and version the pixels are the same, byte for byte. Of a render that was stopped when some pixels had more
 /// samples than others the EXR says how many each gets; a PNG of it is refused. Of a denoised picture both are made
-/// again: the picture that it was made of, and NAME.denoised.png or NAME.denoised.exr beside it.
+/// again: the picture that it was made of, and NAME.denoised.png or NAME.denoised.exr beside it. The new record says of
+/// the samples what the first did: whether they are all that were asked for, why not, and how they were shared out.
 #[derive(Args)]
 #[command(after_help = "Example:\n  lampray rerun cornell.png -o again.exr")]
 pub(crate) struct Command {
@@ -56,9 +57,9 @@ impl Command {
                 "its record says how it was denoised, and that cannot be".into(),
             );
         }
-        let rules = match (&record.adaptive, record.target_error, &counts) {
-            (Some(_), Some(target), None) => StopRules::adaptive(target),
-            _ => StopRules::default(),
+        let (rules, again) = match (&record.adaptive, &counts) {
+            (Some(_), None) => (StopRules::adaptive(record.target_error), None),
+            _ => (StopRules::default(), Some(&record)),
         };
         let device = device_of(&self.device, &record);
         let (outputs, aovs) = (self.outputs, self.aov);
@@ -68,6 +69,7 @@ impl Command {
             region,
             samples: first..end,
             counts,
+            again,
             aovs,
             denoise,
             device: &device,
@@ -77,6 +79,17 @@ impl Command {
             signals,
         }
         .go(output)
+    }
+}
+
+/// Says of a picture whose samples are those of a first one how they were shared out there; once it has all of them,
+/// also how the first one ended, which had perhaps been asked for more.
+pub(super) fn take_over(again: &mut Record, first: &Record, whole: bool) {
+    again.target_error = first.target_error;
+    again.adaptive = first.adaptive.clone();
+    if whole {
+        again.complete = first.complete;
+        again.stopped = first.stopped;
     }
 }
 

@@ -4,11 +4,13 @@ use super::denoise::beside;
 use super::keep::{KeepOptions, Keeper};
 use super::options::{DeviceOptions, refuse_mixed};
 use super::progress::bar;
+use super::rerun::take_over;
 use super::signal::Watch;
 use super::{Output, note, print};
 use crate::device::Device;
 use crate::error::{Error, Result};
 use crate::film::{Aov, Denoising, Film, Picture, Record, Seconds, Stop, Target, name_outputs};
+use crate::knobs::shown;
 use crate::pack::Rect;
 use crate::render::{self, Rendering, Spares, Task};
 use crate::scene::Scene;
@@ -27,6 +29,8 @@ pub(crate) struct Run<'a> {
     pub samples: Range<u64>,
     /// Of each pixel, where that is known: see [`Task::counts`].
     pub counts: Option<Vec<u64>>,
+    /// The record of the picture whose samples are taken again, where they are not shared out anew.
+    pub again: Option<&'a Record>,
     pub aovs: Vec<Aov>,
     /// How to make the pictures beside the outputs, where they are wanted.
     pub denoise: Option<Denoising>,
@@ -57,9 +61,9 @@ pub(crate) struct StopRules {
 
 impl StopRules {
     /// Those of a picture whose samples went where the error was.
-    pub(crate) fn adaptive(target_error: f64) -> Self {
+    pub(crate) fn adaptive(target_error: Option<f64>) -> Self {
         Self {
-            target_error: Some(target_error),
+            target_error,
             ..Self::default()
         }
     }
@@ -117,7 +121,7 @@ impl Run<'_> {
         let kept = session.keep(keeper, &rendering, done);
         if let Some(record) = record.as_ref().filter(|_| !output.quiet && written.is_ok()) {
             warn_non_finite(&rendering);
-            note(&summary(record));
+            note(&summary(record, &rendering));
             session.tell_of_error(&rendering);
         }
         first_failure([traced, written, smoothed.map(drop), kept])?;
@@ -211,8 +215,10 @@ impl Session<'_> {
             return;
         }
         let text = format!(
-            "--target-error {target} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; give it more samples",
-            found.picture, found.pixels
+            "--target-error {} is not reached: the error is {:.2e} for the picture's mean and {:.2e} for 95 % of the pixels; give it more samples",
+            shown(target),
+            found.picture,
+            found.pixels
         );
         remark(&text, self.output);
     }
@@ -227,6 +233,9 @@ impl Session<'_> {
         let seconds = &mut picture.record.seconds;
         seconds.setup += self.opening.as_secs_f64();
         seconds.total = self.started.elapsed().as_secs_f64();
+        if let Some(first) = self.run.again {
+            take_over(&mut picture.record, first, rendering.complete());
+        }
         Some(picture)
     }
 
@@ -284,7 +293,10 @@ impl Session<'_> {
             written.map(|()| record)
         });
         match written {
-            Ok(Some(record)) => remark(&format!("{}; going on", summary(&record)), self.output),
+            Ok(Some(record)) => remark(
+                &format!("{}; going on", summary(&record, rendering)),
+                self.output,
+            ),
             Ok(None) => {}
             Err(error) => note(&format!("lampray: warning: {error}; the render goes on")),
         }
@@ -344,10 +356,11 @@ fn warn_non_finite_of(film: &Film) {
     }
 }
 
-/// One line on what was made: files, size, samples, speed, device.
-fn summary(record: &Record) -> String {
-    let state = match record.stopped {
-        None if record.complete => "",
+/// One line on what was made: files, size, samples, speed, device. How it ended and how fast it was are this render's:
+/// of a picture that is made again the record says how the first one ended, and has its scouts.
+fn summary(record: &Record, rendering: &Rendering) -> String {
+    let state = match rendering.stopped {
+        None if rendering.complete() => "",
         None => " so far",
         Some(Stop::TargetError) => " (error as asked for)",
         Some(Stop::Time) => " (time is up)",
@@ -358,12 +371,7 @@ fn summary(record: &Record) -> String {
         .into_iter()
         .map(|device| device.name)
         .collect();
-    let scouts = record
-        .adaptive
-        .as_ref()
-        .map_or(0, |adaptive| adaptive.scout_paths);
-    let paths = record.paths.saturating_add(scouts);
-    let speed = paths as f64 / record.seconds.render.max(1e-9) / 1e6;
+    let speed = rendering.traced() as f64 / record.seconds.render.max(1e-9) / 1e6;
     format!(
         "{}: {}x{}, {}{state} in {:.2} s ({speed:.2} Msamples/s) on {}",
         all_named(&record.outputs),
@@ -377,11 +385,11 @@ fn summary(record: &Record) -> String {
 
 /// Samples a pixel, and of how many where they differ by design.
 fn samples(record: &Record) -> String {
-    if record.adaptive.is_none() {
+    let [first, end] = record.sample_range;
+    if record.adaptive.is_none() || record.samples == end - first {
         return counted_as(record.samples, "sample a pixel", "samples a pixel");
     }
     let pixels = f64::from(record.width) * f64::from(record.height);
-    let [first, end] = record.sample_range;
     let mean = record.paths as f64 / pixels;
     format!(
         "{} to {} (mean {mean:.1}) samples a pixel",

@@ -19,7 +19,7 @@ use super::record::Record;
 use super::same::difference;
 use super::scouts::{Scouts, Tiles};
 use crate::error::{Error, Result};
-use crate::knobs::short;
+use crate::knobs::{short, shown};
 use crate::pack::Rect;
 use crate::place::Place;
 use crate::wording::named;
@@ -333,9 +333,8 @@ impl Checkpoint {
         }
         let targets = [wanted.target_error, self.record.target_error];
         if targets[0] != targets[1] {
-            let shown =
-                |target: Option<f64>| target.map_or("none".into(), |error| error.to_string());
-            return other("the target error", &shown(targets[0]), &shown(targets[1]));
+            let [here, there] = targets.map(|target| target.map_or("none".into(), shown));
+            return other("the target error", &here, &there);
         }
         let rules = [&wanted.adaptive, &self.record.adaptive];
         let rules = rules.map(|rule| rule.as_ref().map_or("even", |rule| &rule.rule));

@@ -187,6 +187,10 @@ fn add_record(sum: &mut Record, other: &Record) {
     sum.seconds.longest_block = sum.seconds.longest_block.max(other.seconds.longest_block);
     sum.complete &= other.complete;
     sum.stopped = sum.stopped.or(other.stopped);
+    // One number cannot be said of parts that had several.
+    sum.target_error = sum
+        .target_error
+        .filter(|target| other.target_error == Some(*target));
     sum.biased |= other.biased;
     sum.randomisation_means.extend(&other.randomisation_means);
 }
@@ -195,6 +199,7 @@ fn add_record(sum: &mut Record, other: &Record) {
 /// are good weights: see `render/adaptive`.
 fn both_adaptive(sum: &Record, other: &Record) -> Option<AdaptiveRecord> {
     let either = sum.adaptive.as_ref().or(other.adaptive.as_ref())?;
+    // The record of a part that was sampled evenly says what it took, not what it might have taken.
     let allowed = |record: &Record| match &record.adaptive {
         Some(adaptive) => adaptive.allowed.clone(),
         None => record.ranges(),

@@ -52,7 +52,8 @@ pub struct Record {
     /// Why it ended before the last of them; absent where it did not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<Stop>,
-    /// The error at which it might end earlier, relative to the mean; absent where none was asked for.
+    /// The error at which it might end earlier, relative to the mean; absent where none was asked for, and where the
+    /// parts of a merged picture had not all the same.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target_error: Option<f64>,
     /// How the samples were shared out over the picture; absent where every pixel was to have the same.

@@ -31,7 +31,7 @@ pub struct AdaptiveRecord {
     /// Pixels along a side of a tile.
     pub tile: u32,
     /// The samples that a pixel could have had, from the first on, up to and without the second; of a picture that
-    /// was merged those of each part.
+    /// was merged those of each part, or those that it took where a part gave each pixel the same number.
     pub allowed: Vec<[u64; 2]>,
     /// Samples that decided and are not in the picture, over all pixels; beyond the record's `paths`.
     pub scout_paths: u64,

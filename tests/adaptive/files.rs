@@ -115,6 +115,12 @@ fn even_sampling_is_a_choice() {
     let even = read(folder, "even.exr");
     assert!(even.record.adaptive.is_none());
     assert!(even.samples.iter().all(|count| *count == even.samples[0]));
+    ran(folder, &["rerun", "even.exr", "-o", "again.exr"]);
+    let again = read(folder, "again.exr");
+    assert!(again.mean == even.mean && again.samples == even.samples);
+    // Its 5000 samples were not all taken this time either.
+    assert!(again.record.stopped == Some(Stop::TargetError) && !again.record.complete);
+    assert_eq!(again.record.target_error, Some(0.06));
     ran(folder, &with(&["-o", "a.exr", "--seed", "7"]));
     let told = ran(folder, &["diff", "even.exr", "a.exr", "--margin", "0.05"]);
     assert!(told.contains(" to ") && told.contains("samples"), "{told}");
@@ -140,8 +146,40 @@ fn ranges_add_up() {
     }
     let adaptive = both.record.adaptive.expect("its parts are adaptive");
     assert_eq!(adaptive.allowed, [[0, 5000], [5000, 10000]]);
+    assert_eq!(both.record.target_error, Some(0.06));
     let told = refused(folder, &["rerun", "c.exr", "-o", "d.exr"], 65);
     assert!(told.contains("render its parts one by one"), "{told}");
+}
+
+/// Of a part that was sampled evenly the sum says what it took, and of two target errors neither.
+#[test]
+fn an_even_part_is_said_to_have_had_what_it_took() {
+    let stage = stage();
+    let folder = stage.path();
+    ran(folder, &with(&["-o", "a.exr"]));
+    let even = ["0.2", "--even", "--sample-range", "5000..10000"];
+    let even = [&RENDER[..RENDER.len() - 1], &even, &["-o", "b.exr"]].concat();
+    ran(folder, &even);
+    ran(folder, &["merge", "a.exr", "b.exr", "-o", "c.exr"]);
+    let [b, sum] = ["b.exr", "c.exr"].map(|name| read(folder, name).record);
+    assert!(b.sample_range[1] < 10000 && b.stopped == Some(Stop::TargetError));
+    let allowed = sum.adaptive.expect("one part is adaptive").allowed;
+    assert_eq!(allowed, [[0, 5000], b.sample_range]);
+    assert_eq!(sum.stopped, Some(Stop::TargetError));
+    assert_eq!(sum.target_error, None);
+}
+
+/// Counts that are all alike are said once, and small numbers are short.
+#[test]
+fn the_line_that_is_printed_is_short() {
+    let stage = stage();
+    let small =
+        "render s.toml --device cpu --width 16 --height 16 --spp 80 --target-error 1e-300 -o a.exr";
+    let told = ran(stage.path(), &small.split(' ').collect::<Vec<_>>());
+    let record = read(stage.path(), "a.exr").record;
+    assert!(record.adaptive.is_some() && record.sample_range == [0, 80]);
+    assert!(told.contains("16x16, 80 samples a pixel in "), "{told}");
+    assert!(told.contains("--target-error 1e-300 is not"), "{told}");
 }
 
 #[test]
