@@ -15,5 +15,7 @@ mod keeps;
 mod program;
 #[path = "denoise/room.rs"]
 mod room;
+#[path = "denoise/shines.rs"]
+mod shines;
 #[path = "denoise/twin.rs"]
 mod twin;

@@ -144,19 +144,20 @@ impl Session<'_> {
     }
 }
 
-/// One line on the pictures without noise.
+/// What to know of the pictures without noise, and one line on them.
 fn tell_of_denoising(record: &Record, output: Output) {
-    let Some(denoised) = record.denoised.filter(|_| !output.quiet) else {
+    let Some(denoised) = record.denoised.as_ref().filter(|_| !output.quiet) else {
         return;
     };
-    let sum = |mean: [f64; 3]| mean.iter().sum::<f64>();
-    let before = sum(denoised.mean_before);
-    let change = 100.0 * (sum(record.mean) - before) / before.max(f64::MIN_POSITIVE);
+    for warning in &denoised.warnings {
+        remark(&format!("warning: {warning}"), output);
+    }
+    let (channel, share) = denoised.largest_change();
     note(&format!(
-        "{}: denoised in {:.2} s; the mean changed by {} %",
+        "{}: denoised in {:.2} s; the mean changed by {} % ({channel})",
         all_named(&record.outputs),
         denoised.seconds,
-        signed(change, 2)
+        signed(100.0 * share, 2)
     ));
 }
 

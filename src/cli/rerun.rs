@@ -50,7 +50,7 @@ impl Command {
         let region = region_of(&self.image, &record, &scene)?;
         let counts = counts_of(&self.image, &record, region)?;
         let [first, end] = whole_range(&self.image, &record, counts.is_some())?;
-        let denoise = record.denoised.map(|denoised| denoised.by);
+        let denoise = record.denoised.as_ref().map(|denoised| denoised.by);
         if denoise.is_some_and(|by| !by.is_sound()) {
             return damaged(
                 &self.image,

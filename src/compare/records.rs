@@ -91,7 +91,7 @@ fn other_differences(reference: &Record, test: &Record) -> Vec<String> {
             .crop
             .map_or("none".into(), |crop| format!("{crop:?}"))
     };
-    let denoised = |record: &Record| match record.denoised {
+    let denoised = |record: &Record| match &record.denoised {
         None => "no".to_string(),
         Some(denoised) => serde_json::to_string(&denoised.by).unwrap_or_default(),
     };

@@ -3,12 +3,14 @@
 use super::sites::Lit;
 use crate::film::Picture;
 use crate::pack::{Estimate, Site};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 
 /// No variance is larger: sums of some, and their squares' weights, stay finite.
 const MOST: f32 = 1e30;
+/// Black that is so many times as bright as black near lamps could be shows something else.
+const STRANGE: f32 = 10.0;
 /// Below this a shade is black: what is divided by it would be anything.
 pub(super) const BLACK: f32 = 1e-3;
 /// Light beyond so many units, or that is no number, takes part in nothing: sums of it would not be finite.
@@ -23,18 +25,44 @@ const FAINT: f64 = 1e-16;
 
 /// What radiance is counted in, so that so many times the light gives so many times the picture: the light of the
 /// brighter pixels where nothing is seen to shine. Then what shines is about as bright before its emission as a
-/// surface near it is before its albedo, and a pixel on its edge is like both.
-pub(super) fn unit(picture: &Picture, lit: &Lit) -> f32 {
+/// surface near it is before its albedo. All channels have one, so that colours weigh the same in any part of a picture;
+/// but one so faint that what shines in it would count as black beside the others has its own.
+pub(super) fn units(picture: &Picture, lit: &Lit) -> Vec3 {
+    let light = |channel: usize| {
+        move |mean: &[f32; 3], shade: &[f32; 3]| {
+            (shade[channel] > BLACK).then(|| f64::from(mean[channel]) / f64::from(shade[channel]))
+        }
+    };
+    let colour = |mean: &[f32; 3], shade: &[f32; 3]| {
+        let lights = [0, 1, 2].map(|channel| light(channel)(mean, shade));
+        Some((lights[0]? + lights[1]? + lights[2]?) / 3.0)
+    };
+    // Where all is black, that of black.
+    let dark = |mean: &[f32; 3], _: &[f32; 3]| Some(brightness(mean) / f64::from(BLACK));
+    let common = near_lamps(picture, lit, colour).or_else(|| near_lamps(picture, lit, dark));
+    let common = common.or_else(|| usual(picture));
+    let common = common.unwrap_or(1.0);
+    let unit = |channel: usize| {
+        let means = picture.mean.iter().map(|mean| f64::from(mean[channel]));
+        let own = near_lamps(picture, lit, light(channel)).or_else(|| quantile(means, 0.5));
+        let own = own.filter(|own| *own < common * f64::from(BLACK));
+        let unit = own.unwrap_or(common);
+        unit.clamp(*UNITS.start(), *UNITS.end()) as f32
+    };
+    Vec3::from_array(std::array::from_fn(unit))
+}
+
+/// The light of the brighter pixels where nothing is seen to shine, from means and shades.
+fn near_lamps(
+    picture: &Picture,
+    lit: &Lit,
+    light: impl Fn(&[f32; 3], &[f32; 3]) -> Option<f64>,
+) -> Option<f64> {
     let surfaces = lit.reflected.iter().zip(&lit.shining);
-    let lights = picture.mean.iter().zip(surfaces);
-    let lights = lights
-        .filter(|(_, (reflected, shining))| {
-            **shining == [0.0; 3] && reflected.iter().all(|share| *share > BLACK)
-        })
-        .map(|(mean, (reflected, _))| brightness(mean, reflected));
-    let unit = quantile(lights, NEAR_LAMPS);
-    let unit = unit.or_else(|| usual(picture)).unwrap_or(1.0);
-    unit.clamp(*UNITS.start(), *UNITS.end()) as f32
+    let pixels = picture.mean.iter().zip(surfaces);
+    let dull = pixels.filter(|(_, (_, shining))| **shining == [0.0; 3]);
+    let lights = dull.filter_map(|(mean, (reflected, _))| light(mean, reflected));
+    quantile(lights, NEAR_LAMPS)
 }
 
 /// Whether a picture's light is so faint that its variance, a square, is lost in 32 bits: nothing in it, or little, is
@@ -45,16 +73,11 @@ pub fn is_faint(picture: &Picture) -> bool {
 
 /// Median radiance of the pixels that are not black.
 fn usual(picture: &Picture) -> Option<f64> {
-    let means = picture.mean.iter().map(|mean| brightness(mean, &[1.0; 3]));
-    quantile(means, 0.5)
+    quantile(picture.mean.iter().map(brightness), 0.5)
 }
 
-fn brightness(mean: &[f32; 3], shade: &[f32; 3]) -> f64 {
-    let light = mean.iter().zip(shade);
-    light
-        .map(|(mean, shade)| f64::from(*mean) / f64::from(*shade))
-        .sum::<f64>()
-        / 3.0
+fn brightness(mean: &[f32; 3]) -> f64 {
+    mean.iter().copied().map(f64::from).sum::<f64>() / 3.0
 }
 
 /// Of the numbers that are above 0; `share` is below 1.
@@ -69,8 +92,8 @@ fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
 
 /// What the light of each pixel was multiplied by on its last way to the eye: albedo and mirrors, or its emission in
 /// units.
-pub(super) fn shades(lit: &Lit, unit: f32) -> Vec<[f32; 3]> {
-    let per_unit = 1.0 / unit;
+pub(super) fn shades(lit: &Lit, units: Vec3) -> Vec<[f32; 3]> {
+    let per_unit = units.recip();
     let shade = |(reflected, shining): (&[f32; 3], &[f32; 3])| {
         let shining = (Vec3::from(*shining) * per_unit).min(Vec3::splat(BRIGHTEST));
         let shade = Vec3::from(*reflected) + shining;
@@ -79,22 +102,27 @@ pub(super) fn shades(lit: &Lit, unit: f32) -> Vec<[f32; 3]> {
     lit.reflected.iter().zip(&lit.shining).map(shade).collect()
 }
 
-/// Marks the sites of light that is no number, or too bright.
-pub(super) fn leave_out(picture: &Picture, unit: f32, sites: &mut [Site]) {
-    let per_unit = 1.0 / unit;
-    for (site, mean) in sites.iter_mut().zip(&picture.mean) {
-        let valid = mean.iter().all(|value| value.abs() * per_unit <= BRIGHTEST);
-        if !valid {
+/// Marks the sites of light that is no number, or too bright: also for black, as where some paths met a lamp or a wall
+/// between the rays of the guides. Divided by black it would be light that is nowhere.
+pub(super) fn leave_out(picture: &Picture, units: Vec3, shades: &[[f32; 3]], sites: &mut [Site]) {
+    let per_unit = units.recip();
+    let pixels = picture.mean.iter().zip(shades);
+    for (site, (mean, shade)) in sites.iter_mut().zip(pixels) {
+        let light = Vec3::from(*mean).abs() * per_unit;
+        let valid = light.cmple(Vec3::splat(BRIGHTEST)).all();
+        let black = Vec3::from(*shade).cmple(Vec3::splat(BLACK));
+        let strange = black & light.cmpgt(Vec3::splat(STRANGE * BLACK));
+        if !valid || strange.any() {
             site.spread = -1.0;
         }
     }
 }
 
-/// Light and its variance, for every pixel, in the unit and its square.
-pub(super) fn estimates(picture: &Picture, unit: f32, shades: &[[f32; 3]]) -> Vec<Estimate> {
-    let per_unit = 1.0 / unit;
-    let everywhere = picture.record.mean;
-    let everywhere = Vec3::from(everywhere.map(|value| (value * f64::from(per_unit)) as f32));
+/// Light and its variance, for every pixel, in the units and their squares.
+pub(super) fn estimates(picture: &Picture, units: Vec3, shades: &[[f32; 3]]) -> Vec<Estimate> {
+    let per_unit = units.recip();
+    let everywhere = DVec3::from(picture.record.mean) * per_unit.as_dvec3();
+    let everywhere = everywhere.as_vec3();
     let estimate = |pixel: usize| {
         let (mean, shade) = (Vec3::from(picture.mean[pixel]), Vec3::from(shades[pixel]));
         let light = finite(mean * per_unit / shade);
@@ -133,15 +161,15 @@ fn finite(light: Vec3) -> Vec3 {
 /// The picture's mean radiance with what changed of the light; a pixel whose light did not keeps its bits.
 pub(super) fn means(
     picture: &Picture,
-    unit: f32,
+    units: Vec3,
     shades: &[[f32; 3]],
     smoothed: &[Estimate],
 ) -> Vec<[f32; 3]> {
     let mean = |pixel: usize| {
         let (mean, shade) = (Vec3::from(picture.mean[pixel]), Vec3::from(shades[pixel]));
-        let change = Vec3::from(smoothed[pixel].light) - finite(mean * (1.0 / unit) / shade);
+        let change = Vec3::from(smoothed[pixel].light) - finite(mean * units.recip() / shade);
         // A weighted mean of what is not negative is not, but for rounding.
-        let changed = (mean + shade * change * unit).max(mean.min(Vec3::ZERO));
+        let changed = (mean + shade * change * units).max(mean.min(Vec3::ZERO));
         if change == Vec3::ZERO || !changed.is_finite() {
             mean.to_array()
         } else {
@@ -149,6 +177,12 @@ pub(super) fn means(
         }
     };
     (0..picture.pixels()).into_par_iter().map(mean).collect()
+}
+
+/// Pixels of one sample: nothing is known of their variance.
+pub(super) fn of_unknown_variance(picture: &Picture) -> u64 {
+    let counts = picture.samples.iter();
+    counts.filter(|count| **count < 2.0).count() as u64
 }
 
 /// Mean over pixels; what is no number counts as nothing.

@@ -7,7 +7,8 @@
 //!
 //! What is filtered is light before the surfaces' albedo, so that a step in albedo costs nothing. How much of a
 //! difference is noise goes by the variance of each pixel's mean, which is known: where there is none, nothing
-//! changes. Light is counted in the picture's own brightness, so that its unit does not matter. Dammertz et al. (2010) and Schied et al. (2017), as `shaders/denoise.wgsl` says.
+//! changes. Light is counted in the picture's own brightness, each channel in its own, so that its unit does not matter.
+//! Pixels that see something shine are filtered by themselves. Dammertz et al. (2010) and Schied et al. (2017), as `shaders/denoise.wgsl` says.
 
 mod hands;
 mod light;
@@ -51,22 +52,23 @@ pub fn denoise<'a>(
     let Some(mut lit) = sites::sites(&mut hands, task, by, watch)? else {
         return Ok(None);
     };
-    let unit = light::unit(picture, &lit);
-    light::leave_out(picture, unit, &mut lit.sites);
-    let shades = light::shades(&lit, unit);
-    let estimates = light::estimates(picture, unit, &shades);
+    let units = light::units(picture, &lit);
+    let shades = light::shades(&lit, units);
+    light::leave_out(picture, units, &shades, &mut lit.sites);
+    let estimates = light::estimates(picture, units, &shades);
     let size = [picture.width, picture.height];
     let Some(smoothed) = passes::run(&mut hands, size, by, &lit.sites, estimates, watch)? else {
         return Ok(None);
     };
-    let mean = light::means(picture, unit, &shades, &smoothed);
+    let mean = light::means(picture, units, &shades, &smoothed);
     let mut record = picture.record.clone();
     record.mean = light::mean_of(&mean);
-    record.denoised = Some(Denoised {
+    record.denoised = Some(Denoised::new(
         by,
-        mean_before: picture.record.mean,
-        seconds: began.elapsed().as_secs_f64(),
-    });
+        [picture.record.mean, record.mean],
+        light::of_unknown_variance(picture),
+        began.elapsed().as_secs_f64(),
+    ));
     Ok(Some(Picture {
         width: picture.width,
         height: picture.height,

@@ -19,6 +19,10 @@ const FINENESS: u32 = 4;
 const BLOCK: [u32; 2] = [256, 48];
 /// The largest spread: beyond, a pixel that the background shows through would be like everything.
 const WIDEST: f32 = 30.0;
+/// Added to the share of what emits where any of it reaches the eye: however wide a pixel's spread, nothing is left of
+/// the weight of one that sees none, (8 - 1)^2 KIND / (1 + WIDEST) being above FARTHEST. What shines may be millions of
+/// times as bright as what is beside it: the least share of its light there would be seen.
+const SHINES: f32 = 8.0;
 
 /// Sites of a picture and what is seen at them, row by row.
 pub(super) struct Lit {
@@ -128,6 +132,9 @@ impl Looks {
         }
         let apart = |(site, ..): &(Site, Vec3, Vec3)| site_distance(&self.job, site, &mean);
         mean.spread = lesser(seen.iter().map(apart).sum::<f32>() * share, WIDEST);
+        if shining != Vec3::ZERO {
+            mean.kind[1] += SHINES;
+        }
         (mean, reflected, shining)
     }
 

@@ -1,5 +1,6 @@
 //! What a record says of a picture that was denoised.
 
+use crate::wording::{counted, signed};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -38,13 +39,85 @@ impl Denoising {
 }
 
 /// A picture that was denoised is no mean of samples any more: it is less noisy, and biased.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Denoised {
     #[serde(flatten)]
     pub by: Denoising,
     /// Mean radiance of the picture before: how far the record's own mean is from it is the energy that was made or
     /// lost.
     pub mean_before: [f64; 3],
+    /// By what share of it each channel's mean changed: 0.01 is 1 % more.
+    #[serde(default)]
+    pub change: [f64; 3],
+    /// Pixels of one sample, of whose variance nothing is known.
+    #[serde(default)]
+    pub unknown_variance: u64,
+    /// What whoever looks at it should know.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// How long it took.
     pub seconds: f64,
+}
+
+impl Denoised {
+    /// A channel's mean that changes by a larger share is warned of. That of a usual scene changes by a share of some
+    /// hundredths at most.
+    pub const LARGE_CHANGE: f64 = 0.05;
+
+    /// Of a picture whose mean radiance was the first of `means` and is the second, with so many pixels of
+    /// `unknown_variance`.
+    pub fn new(
+        by: Denoising,
+        [before, after]: [[f64; 3]; 2],
+        unknown_variance: u64,
+        seconds: f64,
+    ) -> Self {
+        let change = std::array::from_fn(|channel| share(before[channel], after[channel]));
+        let mut denoised = Self {
+            by,
+            mean_before: before,
+            change,
+            unknown_variance,
+            warnings: Vec::new(),
+            seconds,
+        };
+        denoised.warnings = denoised.warned().into_iter().flatten().collect();
+        denoised
+    }
+
+    /// The channel whose mean changed by the largest share, and that share.
+    pub fn largest_change(&self) -> (&'static str, f64) {
+        let channels = ["red", "green", "blue"].into_iter().zip(self.change);
+        let larger = |a: (&'static str, f64), b: (&'static str, f64)| {
+            if b.1.abs() > a.1.abs() { b } else { a }
+        };
+        channels.reduce(larger).unwrap_or_default()
+    }
+
+    fn warned(&self) -> [Option<String>; 2] {
+        let unknown = (self.unknown_variance > 0).then(|| {
+            format!(
+                "{} of one sample, of whose variance nothing is known: each counts as being as uncertain as it and the picture's mean are bright; give --spp 2 or more",
+                counted(self.unknown_variance, "pixel")
+            )
+        });
+        let (name, share) = self.largest_change();
+        let large = (share.abs() > Self::LARGE_CHANGE).then(|| {
+            format!(
+                "denoising changed the mean of {name} by {} %: take the picture beside it for brightness, or more samples",
+                signed(100.0 * share, 2)
+            )
+        });
+        [unknown, large]
+    }
+}
+
+/// By what share of it a mean changed; as far as can be told where it was nothing.
+fn share(before: f64, after: f64) -> f64 {
+    let share = (after - before) / before.abs().max(f64::MIN_POSITIVE);
+    if share.is_nan() {
+        0.0
+    } else {
+        share.clamp(f64::MIN, f64::MAX)
+    }
 }

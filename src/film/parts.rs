@@ -24,7 +24,7 @@ impl Part {
             path: path.into(),
             record,
         };
-        match part.record.denoised {
+        match &part.record.denoised {
             None => Ok(part),
             Some(_) => part.fail(
                 "it was denoised, which leaves no sums of samples: merge the pictures beside such ones".into(),

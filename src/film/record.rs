@@ -120,7 +120,7 @@ impl Record {
             total,
             longest_block,
         } = self.seconds;
-        let denoising = self.denoised.map(|denoised| denoised.seconds);
+        let denoising = self.denoised.as_ref().map(|denoised| denoised.seconds);
         let times = [setup, render, total, longest_block];
         let short = times.into_iter().chain(denoising);
         let short = short.map(|value| LONGEST.saturating_sub(written(value)));

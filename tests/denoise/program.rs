@@ -61,6 +61,26 @@ fn the_plain_picture_stays_and_another_stands_beside_it() {
 }
 
 #[test]
+fn a_single_sample_is_warned_of() {
+    let folder = folder();
+    let common = "render s.toml --device cpu --width 20 --height 16 --denoise";
+    for (samples, unknown) in [(1, 320), (2, 0)] {
+        let output = lampray(folder.path(), &format!("{common} --spp {samples} -o w.exr"));
+        let said = "warning: 320 pixels of one sample, of whose variance nothing is known";
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(stderr.contains(said), unknown > 0, "{stderr}");
+        let (record, _) = lampray::film::read_record(folder.path().join("w.denoised.exr")).unwrap();
+        let denoised = record.denoised.unwrap();
+        assert_eq!(denoised.unknown_variance, unknown);
+        let kept = denoised
+            .warnings
+            .iter()
+            .any(|text| text.starts_with(&said[9..]));
+        assert_eq!(kept, unknown > 0, "{:?}", denoised.warnings);
+    }
+}
+
+#[test]
 fn readers_know_a_denoised_picture() {
     let folder = folder();
     let merged = lampray(folder.path(), "merge a.exr a.denoised.exr -o m.exr");
