@@ -1,6 +1,6 @@
 //! Checkpoints that are damaged, of another render, or in the way.
 
-use super::stage::{CPU, KEPT, LONG, RESUMED, SHORT, Stage, fifo};
+use super::stage::{CPU, ENDLESS, KEPT, LONG, RESUMED, SHORT, Stage, fifo};
 use super::table::Left::{Checkpoint, Else, Old, Part, Same};
 use super::table::{Left, Row, hold};
 use std::fs;
@@ -246,8 +246,10 @@ const IN_THE_WAY: &[Row] = &[
     Row {
         done: "a second render with the checkpoint of one that has saved nothing yet",
         act: |at| {
-            let other = at.start(&[LONG, CPU, &["--checkpoint", "c"]]);
+            let other = at.start(&[ENDLESS, CPU, &["--checkpoint", "c"]]);
             at.wait_for("c");
+            // It is locked a moment after it is there; nobody can look whether it is without locking it.
+            std::thread::sleep(std::time::Duration::from_millis(500));
             let output = at.run(&[LONG, CPU, RESUMED]);
             super::stage::send("KILL", &other);
             other.end();
@@ -260,7 +262,7 @@ const IN_THE_WAY: &[Row] = &[
     Row {
         done: "SIGKILL before anything was saved, then the same command again",
         act: |at| {
-            let killed = at.start(&[LONG, CPU, &["--checkpoint", "c"]]);
+            let killed = at.start(&[ENDLESS, CPU, &["--checkpoint", "c"]]);
             at.wait_for("c");
             super::stage::send("KILL", &killed);
             killed.end();
