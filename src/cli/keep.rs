@@ -45,7 +45,7 @@ pub(crate) struct Keeper {
     /// The checkpoint that this render wrote last or goes on from, locked as long as the render lives; before
     /// there is one an empty file in its place.
     held: Option<File>,
-    /// Whether that is an empty file which this render put there.
+    /// Whether that is such an empty file, and nothing was saved yet.
     claims: bool,
 }
 
@@ -92,8 +92,10 @@ impl KeepOptions {
             keeper.refuse_to_lose()?;
             None
         };
-        if keeper.held.is_none() {
-            keeper.claim()?;
+        match keeper.held {
+            // One that a killed render left: as if it were this one's, so that it never takes the place of the one before.
+            Some(_) => keeper.claims = is_empty(path),
+            None => keeper.claim()?,
         }
         let Some((checkpoint, remark)) = found else {
             if self.resume {

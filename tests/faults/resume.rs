@@ -273,6 +273,27 @@ const IN_THE_WAY: &[Row] = &[
         says: "",
     },
     Row {
+        done: "an empty file is there and the one before; `--resume`, and one save at `--time`",
+        act: |at| {
+            let kept = at.stopped(&[LONG, CPU, KEPT]).read("c");
+            fs::write(at.join("c.previous"), &kept).expect("the one before");
+            fs::write(at.join("c"), "").expect("an empty file");
+            let output = at.run(&[
+                LONG,
+                CPU,
+                &["--checkpoint", "c", "--resume", "--time", "0.001"],
+            ]);
+            assert!(
+                at.read("c.previous") == kept,
+                "the checkpoint before was touched"
+            );
+            output
+        },
+        exit: 0,
+        left: STOPPED,
+        says: "going on from c.previous",
+    },
+    Row {
         done: "`--checkpoint /dev/null`",
         act: |at| {
             at.old("o.exr")
